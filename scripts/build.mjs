@@ -1,0 +1,32 @@
+// `npm run build`: the library into dist/ (a mirror of the sources) and the site into build/site.
+// `npm run build -- library` or `-- site` builds only one of them.
+import { copyFileSync, rmSync } from 'node:fs';
+import { finishDist } from './lib/dist.mjs';
+import { ensureInstalled } from './lib/install.mjs';
+import { at } from './lib/paths.mjs';
+import { mustRun, runMain } from './lib/run.mjs';
+import { buildSite, hasPages } from './lib/site.mjs';
+
+const named = process.argv.slice(2);
+const wanted = (/** @type {string} */ part) => named.length === 0 || named.includes(part);
+
+await runMain(async () => {
+  await ensureInstalled();
+  await import('./generate.mjs');
+  if (wanted('library')) {
+    rmSync(at('dist'), { recursive: true, force: true });
+    await mustRun(process.execPath, [
+      at('node_modules', 'typescript', 'bin', 'tsc'),
+      '-p',
+      at('tsconfig.build.json'),
+      '--inlineSources',
+    ]);
+    finishDist(at('dist'));
+    console.log('dist/: the library.');
+  }
+  if (wanted('site') && hasPages()) {
+    await buildSite();
+    for (const notice of ['LICENSE', 'THIRD_PARTY_NOTICES.md']) copyFileSync(at(notice), at('build', 'site', notice));
+    console.log('build/site/: the site.');
+  }
+});

@@ -1,0 +1,111 @@
+// Writes the two generated modules of wasm/ts: the C interface as TypeScript (from the headers) and the wasm as a string.
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const at = (/** @type {string} */ name) => path.join(root, name);
+
+/** Sizes and alignments of the struct members that the header uses, for wasm32. */
+const SIZES = { double: 8, int32_t: 4, uint32_t: 4, char: 1 };
+
+/** @param {string} text */
+function withoutComments(text) {
+  return text.replace(/\/\*[\s\S]*?\*\//g, '');
+}
+
+/** @param {string} header @param {string} prefix @returns {[string, number][]} */
+function enumEntries(header, prefix) {
+  return [...withoutComments(header).matchAll(new RegExp(`${prefix}([A-Z0-9_]+) = (\\d+)`, 'g'))].map((m) => [
+    /** @type {string} */ (m[1]).toLowerCase().replaceAll('_', '-'),
+    Number(m[2]),
+  ]);
+}
+
+/** @param {string} header */
+function structLayouts(header) {
+  const layouts = [];
+  for (const [, body, name] of withoutComments(header).matchAll(/typedef struct \w+ \{([\s\S]*?)\} (\w+);/g)) {
+    let offset = 0;
+    let alignment = 1;
+    const fields = [];
+    for (const declaration of /** @type {string} */ (body).split(';')) {
+      const member = declaration.trim().match(/^(?:const )?(\w+?)(\*?) (\w+)(?:\[(\d+)\])?$/);
+      if (!member) continue;
+      const [, type, pointer, field, count] = member;
+      const size = pointer ? 4 : SIZES[/** @type {keyof typeof SIZES} */ (type)];
+      if (!size) throw new Error(`generate: no size known for "${declaration.trim()}" in ${name}`);
+      offset = Math.ceil(offset / size) * size;
+      alignment = Math.max(alignment, size);
+      fields.push(`    ${field}: ${offset},`);
+      offset += size * Number(count ?? 1);
+    }
+    layouts.push(`  ${name}: {\n    sizeof: ${Math.ceil(offset / alignment) * alignment},\n${fields.join('\n')}\n  },`);
+  }
+  return layouts.join('\n');
+}
+
+/** @param {string} header */
+function exportSignatures(header) {
+  return [...withoutComments(header).matchAll(/^HB_API (.+?)(hb_\w+)\((.*)\);$/gm)].map(([, type, name, parameters]) => {
+    const names =
+      parameters === 'void'
+        ? []
+        : /** @type {string} */ (parameters).split(',').map((p) => `${p.trim().match(/(\w+)$/)?.[1]}: number`);
+    return `  ${name}(${names.join(', ')}): ${/** @type {string} */ (type).trim() === 'void' ? 'void' : 'number'};`;
+  });
+}
+
+const status = readFileSync(at('wasm/core/numerics/status.h'), 'utf8');
+const abi = readFileSync(at('wasm/abi/handlebody.h'), 'utf8');
+const codes = enumEntries(status, 'HB_ERROR_');
+const culprits = enumEntries(status, 'HB_CULPRIT_');
+/** @param {[string, number][]} entries */
+const map = (entries) => entries.map(([name, value]) => `  ${value}: '${name}',`).join('\n');
+
+/** @param {string} name @param {string} text */
+function write(name, text) {
+  mkdirSync(path.dirname(at(name)), { recursive: true });
+  writeFileSync(at(name), text);
+}
+
+write(
+  'wasm/ts/abi.generated.ts',
+  `// Generated from wasm/abi/handlebody.h and wasm/core/numerics/status.h by scripts/generate.mjs.
+
+export const ERROR_CODES = {
+${map(codes)}
+} as const;
+
+/** Stable names of everything that can go wrong. */
+export type ErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
+
+export const CULPRIT_KINDS = {
+${map(culprits)}
+} as const;
+
+export type CulpritKind = Exclude<(typeof CULPRIT_KINDS)[keyof typeof CULPRIT_KINDS], 'none'>;
+
+/** Byte offsets of the C structs' members. */
+export const LAYOUT = {
+${structLayouts(abi)}
+} as const;
+
+/** The wasm module's exports. */
+export interface Exports {
+  readonly memory: WebAssembly.Memory;
+${exportSignatures(abi).join('\n')}
+}
+`,
+);
+
+const wasm = readFileSync(at('wasm/handlebody.wasm'));
+write(
+  'wasm/ts/binary.generated.ts',
+  `// Generated from wasm/handlebody.wasm by scripts/generate.mjs: raw deflate, base64.
+export const WASM_BYTES = ${wasm.length};
+export const WASM_DEFLATED_BASE64 =
+  '${deflateRawSync(wasm, { level: 9 }).toString('base64')}';
+`,
+);

@@ -1,0 +1,17 @@
+// The built site (build/site): the studio and the lessons.
+import { existsSync, readdirSync } from 'node:fs';
+import { at } from './paths.mjs';
+
+/** Whether there is any page to build. */
+export function hasPages() {
+  return (
+    existsSync(at('web')) &&
+    readdirSync(at('web'), { recursive: true, encoding: 'utf8' }).some((name) => /(^|[\\/])index\.html$/.test(name))
+  );
+}
+
+/** Builds the site with Vite. */
+export async function buildSite() {
+  const { build } = await import('vite');
+  await build({ configFile: at('vite.config.ts'), logLevel: 'warn' });
+}

@@ -1,0 +1,92 @@
+// `npm run lint`: formatting, linting, types and layering of everything that is ours. With --fix it formats first. Checks that need a
+// tool of the C++ side are reported as not run where it is missing, and fail under REQUIRE_NATIVE=1.
+import { readFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
+import { isCpp } from './lib/imports.mjs';
+import { ensureInstalled } from './lib/install.mjs';
+import { configureNative, NATIVE_BUILD } from './lib/native.mjs';
+import { at } from './lib/paths.mjs';
+import { run, runMain, which } from './lib/run.mjs';
+import { sourceFiles } from './lib/sources.mjs';
+import { findMachinePaths } from './lib/words.mjs';
+
+const fix = process.argv.includes('--fix');
+const tool = (/** @type {string[]} */ ...parts) => at('node_modules', ...parts);
+const node = (/** @type {string[]} */ ...args) => run(process.execPath, args);
+
+const sources = sourceFiles();
+const cpp = sources.filter((file) => isCpp(file) && /^(wasm|tests)\//.test(file));
+
+/** A check ends with 0, with a failing status, or with the reason why it could not run. @type {[string, () => Promise<number | string>][]} */
+const CHECKS = [
+  ['biome', () => node(tool('@biomejs', 'biome', 'bin', 'biome'), 'check', '--error-on-warnings', ...(fix ? ['--write'] : []))],
+  [
+    'types',
+    async () =>
+      (await node(tool('typescript', 'bin', 'tsc'), '--noEmit')) ||
+      node(tool('typescript', 'bin', 'tsc'), '-p', 'tsconfig.build.json', '--noEmit'),
+  ],
+  ['layers', () => node(at('scripts', 'lint-layers.mjs'))],
+  ['words', lintWords],
+  ['clang-format', clangFormat],
+  ['clang-tidy', clangTidy],
+];
+
+async function lintWords() {
+  const found = sources
+    .filter((file) => !/\.(png|jpe?g|webp|glb|wasm|ico|woff2)$/.test(file))
+    .flatMap((file) =>
+      findMachinePaths(readFileSync(at(file), 'utf8')).map(({ line, word }) => `${file}:${line}: a path of one machine: ${word}`),
+    );
+  for (const line of found) console.error(line);
+  return found.length === 0 ? 0 : 1;
+}
+
+async function clangFormat() {
+  if (!which('clang-format')) return 'clang-format is missing';
+  return cpp.length === 0 ? 0 : run('clang-format', [...(fix ? ['-i'] : ['--dry-run', '-Werror']), ...cpp]);
+}
+
+/** Every source of the solver, a few at a time; only what was found is shown. */
+async function clangTidy() {
+  if (!which('clang-tidy')) return 'clang-tidy is missing';
+  const problem = await configureNative();
+  if (problem) return problem;
+  const queue = cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file));
+  let failures = 0;
+  const worker = async () => {
+    for (let file = queue.shift(); file; file = queue.shift()) {
+      let output = '';
+      const collect = (/** @type {string} */ text) => {
+        output += text;
+      };
+      const status = await run('clang-tidy', ['--quiet', '-p', NATIVE_BUILD, file], {
+        stdio: ['ignore', 'pipe', 'ignore'],
+        onOutput: collect,
+      });
+      if (status === 0) continue;
+      failures += 1;
+      console.error(`${file}\n${output.trim()}`);
+    }
+  };
+  await Promise.all(Array.from({ length: Math.min(4, availableParallelism()) }, worker));
+  return failures === 0 ? 0 : 1;
+}
+
+await runMain(async () => {
+  await ensureInstalled();
+  await import('./generate.mjs');
+  const failed = [];
+  for (const [name, check] of CHECKS) {
+    const start = performance.now();
+    const result = await check();
+    const seconds = `${((performance.now() - start) / 1000).toFixed(1)} s`;
+    const bad = typeof result === 'string' ? process.env.REQUIRE_NATIVE === '1' : result !== 0;
+    if (bad) failed.push(name);
+    console.log(
+      `${name}: ${typeof result === 'string' ? `not run (${result})` : `${result === 0 ? 'clean' : 'FAILED'} (${seconds})`}`,
+    );
+  }
+  console.log(failed.length === 0 ? 'lint: clean' : `lint: FAILED (${failed.join(', ')})`);
+  return failed.length === 0 ? 0 : 1;
+});

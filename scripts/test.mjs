@@ -1,0 +1,64 @@
+// `npm test`: installs what it needs, then runs every suite: native C++, TypeScript on the real wasm, a real browser on the built site.
+// The last line is always "N passed, N failed". REQUIRE_NATIVE=1 makes a native suite that cannot run a failure. `npm test -- ts`
+// (native, ts, web) runs only the suites that are named.
+import { existsSync, readdirSync } from 'node:fs';
+import { ensureInstalled } from './lib/install.mjs';
+import { runNativeSuite } from './lib/native.mjs';
+import { at } from './lib/paths.mjs';
+import { runMain } from './lib/run.mjs';
+import { buildSite, hasPages } from './lib/site.mjs';
+import { runVitest } from './lib/vitest.mjs';
+
+const SUITES = ['native', 'ts', 'web'];
+const named = process.argv.slice(2);
+const wanted = (/** @type {string} */ suite) => named.length === 0 || named.includes(suite);
+
+await runMain(async () => {
+  const unknown = named.find((name) => !SUITES.includes(name));
+  if (unknown) throw new Error(`There is no suite called "${unknown}": use ${SUITES.join(', ')}, or none for all.`);
+  await ensureInstalled();
+  await import('./generate.mjs');
+
+  /** @type {string[]} */
+  const lines = [];
+  const total = { passed: 0, failed: 0 };
+  const add = (/** @type {string} */ suite, /** @type {import('./lib/native.mjs').Counts} */ { passed, failed }) => {
+    total.passed += passed;
+    total.failed += failed;
+    lines.push(`${suite} suite: ${passed} passed, ${failed} failed`);
+  };
+
+  if (wanted('native')) {
+    const result = await runNativeSuite();
+    if ('counts' in result) add('native', result.counts);
+    else {
+      lines.push(`native suite: NOT RUN (${result.notRun})`);
+      if (process.env.REQUIRE_NATIVE === '1') total.failed += 1;
+    }
+  }
+  if (wanted('ts')) add('ts', await runVitest('ts'));
+  if (wanted('web') && hasWebTests()) add('web', await runWebSuite());
+
+  console.log(`\n${lines.join('\n')}\n${total.passed} passed, ${total.failed} failed`);
+  return total.failed === 0 ? 0 : 1;
+});
+
+function hasWebTests() {
+  return (
+    existsSync(at('tests', 'web')) &&
+    readdirSync(at('tests', 'web'), { recursive: true, encoding: 'utf8' }).some((f) => f.endsWith('.test.ts'))
+  );
+}
+
+/** A site that does not build, or a browser that is not there, is a failed suite and not the end of the run. */
+async function runWebSuite() {
+  try {
+    if (hasPages()) await buildSite();
+    const { findChromium } = await import('./chromium.mjs');
+    process.env.CHROMIUM = await findChromium();
+    return await runVitest('web');
+  } catch (error) {
+    console.error(error instanceof Error ? error.message : error);
+    return { passed: 0, failed: 1 };
+  }
+}

@@ -1,0 +1,95 @@
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import ts from 'typescript';
+import { beforeAll, describe, expect, it } from 'vitest';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const folder = path.join(root, 'build', 'readme');
+const text = (file: string) => readFileSync(path.join(root, file), 'utf8');
+
+/** Every TypeScript block of the README, as a module that hands out its results. */
+const examples = [...text('README.md').matchAll(/^```ts\n([\s\S]*?)^```$/gm)].map((match, index) => ({
+  code: match[1] ?? '',
+  file: path.join(folder, `example-${index + 1}.ts`),
+}));
+
+beforeAll(() => {
+  mkdirSync(folder, { recursive: true });
+  for (const { code, file } of examples) {
+    const names = [...code.matchAll(/^const (?:(\w+)|\{ ([\w, ]+) \}) =/gm)].map((match) => match[1] ?? match[2]);
+    writeFileSync(file, `${code}\nexport { ${names.join(', ')} };\n`);
+  }
+});
+
+describe("the README's examples", () => {
+  it('are there', () => expect(examples).toHaveLength(2));
+
+  it('are about ten lines', () => {
+    for (const { code } of examples)
+      expect(code.split('\n').filter((line) => line && !line.startsWith('import')).length).toBeLessThan(12);
+  });
+
+  it('type-check under the strictest options', () => {
+    const { config } = ts.readConfigFile(path.join(root, 'tsconfig.json'), ts.sys.readFile);
+    const { options } = ts.parseJsonConfigFileContent({ ...config, files: [], include: [] }, ts.sys, root);
+    const entries = { handlebody: ['wasm/ts/index.ts'], 'handlebody/three': ['web/three/index.ts'] };
+    const paths = Object.fromEntries(
+      Object.entries(entries).map(([name, files]) => [name, files.map((file) => path.join(root, file))]),
+    );
+    const program = ts.createProgram(
+      examples.map(({ file }) => file),
+      { ...options, paths, noEmit: true },
+    );
+    const problems = ts.getPreEmitDiagnostics(program).map((problem) => ts.flattenDiagnosticMessageText(problem.messageText, '\n'));
+    expect(problems).toEqual([]);
+  });
+
+  it('bend the capsule: its held end arrives and its other end stays', async () => {
+    const { irbf, positions, mesh } = await import(/* @vite-ignore */ examples[0]?.file ?? '');
+    const imageOf = (point: number[]) => Array.from(irbf.evaluate(point) as Float64Array);
+    for (const [at, to] of [
+      [
+        [0, 0.5, 0],
+        [0.3, 0.45, 0],
+      ],
+      [
+        [0, 0, 0],
+        [0, 0, 0],
+      ],
+      [
+        [0, -0.5, 0],
+        [0, -0.5, 0],
+      ],
+    ] as const) {
+      const image = imageOf([...at]);
+      expect(Math.hypot(...image.map((x, i) => x - (to[i] ?? 0)))).toBeLessThan(0.01);
+    }
+    expect(positions).toHaveLength(mesh.positions.length);
+    expect(positions.every(Number.isFinite)).toBe(true);
+  });
+
+  it('blend the faces: each example is met at its own place', async () => {
+    const { space, examples: faces, shape } = await import(/* @vite-ignore */ examples[1]?.file ?? '');
+    expect(shape).toHaveLength(3);
+    for (const face of faces) {
+      const got = Array.from(space.evaluate(face.at) as Float64Array);
+      got.forEach((x, i) => {
+        expect(x).toBeCloseTo(face.shape[i], 6);
+      });
+    }
+  });
+});
+
+describe('the documents', () => {
+  it.each(['README.md', 'CONTRIBUTING.md'])('%s links to files that are there', (file) => {
+    const links = [...text(file).matchAll(/\]\((?!https?:|#|mailto:)([^)#\s]+)/g)].map((match) => match[1] ?? '');
+    expect(links.filter((link) => !existsSync(path.join(root, link)))).toEqual([]);
+  });
+
+  it.each(['README.md', 'CONTRIBUTING.md'])('%s names only npm scripts that exist', (file) => {
+    const known = Object.keys(JSON.parse(text('package.json')).scripts);
+    const named = [...text(file).matchAll(/npm (?:run )?(start|test|(?<=run )[\w:-]+)/g)].map((match) => match[1] ?? '');
+    expect(named.filter((name) => !known.includes(name))).toEqual([]);
+  });
+});

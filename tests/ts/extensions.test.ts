@@ -1,0 +1,271 @@
+/** Round trips of HANDLEBODY_body and HANDLEBODY_pose_space through GLB, and what happens to bodies that do not fit. */
+import { type Document, NodeIO, Document as Scene } from '@gltf-transform/core';
+import { prune, weld } from '@gltf-transform/functions';
+import { describe, expect, it } from 'vitest';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { hashPositions } from '../../wasm/ts/hash.ts';
+import type { BodyData } from '../../wasm/ts/types.ts';
+import {
+  attachBody,
+  attachPoseSpace,
+  BodyExtension,
+  type BodyProperty,
+  detachBody,
+  HANDLEBODY_BODY,
+  HANDLEBODY_EXTENSIONS,
+  HANDLEBODY_POSE_SPACE,
+  type PoseSpaceData,
+  type PoseSpaceProperty,
+  readBody,
+  readGlb,
+  readMesh,
+  readPoseSpaces,
+  writeGlb,
+} from '../../web/assets/index.ts';
+
+/** Two nodes of two primitives, transformed, with two morph targets each. */
+function makeScene(): Document {
+  const document = new Scene();
+  const buffer = document.createBuffer();
+  const scene = document.createScene();
+  document.getRoot().setDefaultScene(scene);
+  const vec3 = (numbers: number[]) => document.createAccessor('', buffer).setType('VEC3').setArray(new Float32Array(numbers));
+  const tetrahedron = (x: number) =>
+    document
+      .createPrimitive()
+      .setAttribute('POSITION', vec3([x, 0, 0, x + 1, 0, 0, x, 1.1, 0, x, 0, 1.3]))
+      .setIndices(document.createAccessor('', buffer).setArray(new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])))
+      .addTarget(document.createPrimitiveTarget('smile').setAttribute('POSITION', vec3(Array(12).fill(0.1))))
+      .addTarget(document.createPrimitiveTarget('frown').setAttribute('POSITION', vec3(Array(12).fill(-0.1))));
+  for (const [i, x] of [0, 5].entries()) {
+    const mesh = document
+      .createMesh(`face ${i}`)
+      .addPrimitive(tetrahedron(x))
+      .addPrimitive(tetrahedron(x + 2));
+    const node = document
+      .createNode()
+      .setMesh(mesh)
+      .setTranslation([0.1, 1 / 3, -2])
+      .setRotation([0.18257418, 0.36514837, 0.54772256, 0.73029674]);
+    scene.addChild(node.setScale([1.7, 0.9, 1.1]));
+  }
+  return document;
+}
+
+/** A body with noise for distances: the file format does not care. */
+function makeBody(document: Document): BodyData {
+  const { mesh } = readMesh(document);
+  const voxels = Uint32Array.from({ length: 301 }, (_, i) => i * 3 + (i % 2));
+  const centers = Uint32Array.from([0, 15, 3, 9, 4]);
+  return {
+    version: 0,
+    mesh,
+    positionsHash: hashPositions(mesh.positions),
+    normalization: { center: [0.1, -1 / 3, 1e-17], diagonal: Math.PI },
+    grid: { origin: [-0.5, -0.25, -0.123456789012345], spacing: 1 / 96, dimensions: [10, 11, 12] },
+    voxels,
+    centers,
+    distances: Uint16Array.from({ length: voxels.length * centers.length }, (_, i) => (i * 40503) & 0xffff),
+    distanceScale: 1.7 / 65535,
+    spheres: Float64Array.from([0, 0.25, 0, 0.125, -0.5, 0, 0.0625, 0.5, 0.1, 0.2, 0.3, 0.4], Math.fround),
+  };
+}
+
+const POSES: PoseSpaceData = {
+  version: 0,
+  dimensions: [
+    { name: 'valence', min: -1, max: 1 },
+    { name: 'arousal', min: -1, max: 1 },
+  ],
+  examples: [
+    { name: 'neutral', at: [0, 0], weights: [0, 0] },
+    { name: 'happy', at: [0.83, 0.53], weights: [1, 0] },
+    { name: 'sad “…”', at: [-0.65, -0.27], weights: [0.1, 0.9] },
+  ],
+};
+
+async function codeOf(work: () => unknown): Promise<string> {
+  try {
+    await work();
+  } catch (error) {
+    if (error instanceof HandlebodyError) return error.code;
+    throw error;
+  }
+  return 'nothing was thrown';
+}
+
+const property = (document: Document) => document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY) as BodyProperty;
+
+describe('HANDLEBODY_body', () => {
+  it('comes back from a GLB with every number it had', async () => {
+    const document = makeScene();
+    const body = makeBody(document);
+    attachBody(document, body);
+    const bytes = await writeGlb(document);
+    const back = readBody(await readGlb(bytes));
+    expect(back).toEqual(body);
+    expect(back?.voxels).not.toBe(body.voxels);
+    expect(await writeGlb(document)).toEqual(bytes);
+  });
+
+  it('survives any number of rounds through glTF-Transform when it is registered', async () => {
+    const document = makeScene();
+    const body = makeBody(document);
+    attachBody(document, body);
+    const io = new NodeIO().registerExtensions([...HANDLEBODY_EXTENSIONS]);
+    let bytes = await io.writeBinary(document);
+    for (let round = 0; round < 3; round++) bytes = await io.writeBinary(await io.readBinary(bytes));
+    expect(readBody(await readGlb(bytes))).toEqual(body);
+  });
+
+  it('is on the root, optional, and its data lies in buffer views', async () => {
+    const document = makeScene();
+    attachBody(document, makeBody(document));
+    const { json } = await new NodeIO().registerExtensions([...HANDLEBODY_EXTENSIONS]).writeJSON(document);
+    const extension = (json.extensions as Record<string, Record<string, number>>)[HANDLEBODY_BODY] ?? {};
+    expect(json.extensionsUsed).toEqual([HANDLEBODY_BODY]);
+    expect(json.extensionsRequired).toBeUndefined();
+    expect(Object.keys(extension).sort()).toEqual(
+      ['version', 'positionsHash', 'normalization', 'grid', 'distanceScale', 'voxels', 'centers', 'distances', 'spheres'].sort(),
+    );
+    const { count, type, componentType, bufferView } = json.accessors?.[extension.distances ?? -1] ?? {};
+    expect([count, type, componentType, typeof bufferView]).toEqual([5 * 301, 'SCALAR', 5123, 'number']);
+    expect(json.accessors?.[extension.spheres ?? -1]?.type).toBe('VEC4');
+  });
+
+  it('survives pruning, and is replaced or taken out without leaving its accessors', async () => {
+    const document = makeScene();
+    const accessors = document.getRoot().listAccessors().length;
+    attachBody(document, makeBody(document));
+    await document.transform(prune());
+    const second = { ...makeBody(document), distanceScale: 0.5 };
+    attachBody(document, second);
+    expect(document.getRoot().listAccessors().length).toBe(accessors + 4);
+    expect(readBody(document)?.distanceScale).toBe(0.5);
+    expect(detachBody(document)).toBe(true);
+    expect(detachBody(document)).toBe(false);
+    expect(document.getRoot().listAccessors().length).toBe(accessors);
+    expect(readBody(document)).toBeUndefined();
+  });
+
+  it('says so when it was baked for another mesh', async () => {
+    const document = makeScene();
+    const body = makeBody(document);
+    attachBody(document, body);
+    const node = document.getRoot().listNodes()[1];
+    node?.setTranslation([0.1, 1 / 3, -2.001]);
+    expect(await codeOf(() => readBody(document))).toBe('body-mismatch');
+    expect(await codeOf(() => attachBody(document, body))).toBe('body-mismatch');
+    node?.setTranslation([0.1, 1 / 3, -2]);
+    expect(readBody(document)).toEqual(body);
+  });
+
+  it('is found out after a pipeline that reorders vertices', async () => {
+    const document = makeScene();
+    const [primitive] = document.getRoot().listMeshes()[0]?.listPrimitives() ?? [];
+    primitive?.setIndices(null);
+    primitive?.getAttribute('POSITION')?.setArray(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]));
+    for (const target of primitive?.listTargets() ?? []) primitive?.removeTarget(target);
+    const body = { ...makeBody(document), centers: Uint32Array.of(0, 1, 2, 3, 4) };
+    attachBody(document, body);
+    await document.transform(weld());
+    expect(await codeOf(() => readBody(document))).toBe('body-mismatch');
+  });
+
+  it('refuses other versions', async () => {
+    const document = makeScene();
+    attachBody(document, makeBody(document));
+    property(document).setHeader({ ...property(document).getHeader(), version: 1 });
+    const newer = await readGlb(await writeGlb(document));
+    expect(await codeOf(() => readBody(newer))).toBe('body-version');
+    expect(readMesh(newer).mesh).toEqual(readMesh(document).mesh);
+  });
+
+  it.each<[string, (document: Document, body: BodyProperty) => unknown]>([
+    ['too few distances', (_, body) => body.getAccessor('distances')?.setArray(new Uint16Array(17))],
+    ['distances of another type', (_, body) => body.getAccessor('distances')?.setArray(new Float32Array(5 * 301))],
+    ['no distances', (_, body) => body.getAccessor('distances')?.dispose()],
+    ['a center beyond the mesh', (_, body) => body.getAccessor('centers')?.setArray(Uint32Array.of(0, 1, 2, 3, 16))],
+    ['voxels out of order', (_, body) => body.getAccessor('voxels')?.getArray()?.reverse()],
+    [
+      'voxels outside the grid',
+      (_, body) =>
+        body
+          .getAccessor('voxels')
+          ?.getArray()
+          ?.set([10 * 11 * 12], 300),
+    ],
+    ['spheres that are not finite', (_, body) => body.getAccessor('spheres')?.getArray()?.set([Number.NaN], 2)],
+    ['a negative radius', (_, body) => body.getAccessor('spheres')?.getArray()?.set([-1], 3)],
+    ['no hash', (_, body) => body.setHeader({ ...body.getHeader(), positionsHash: 7 })],
+    ['no grid', (_, body) => body.setHeader({ ...body.getHeader(), grid: null })],
+    [
+      'a fractional grid',
+      (_, body) => body.setHeader({ ...body.getHeader(), grid: { origin: [0, 0, 0], spacing: 1, dimensions: [1.5, 2, 3] } }),
+    ],
+    [
+      'an infinite grid',
+      (_, body) => body.setHeader({ ...body.getHeader(), grid: { origin: [0, 0, 0], spacing: 1, dimensions: [1e9, 1e9, 1e9] } }),
+    ],
+    ['a diagonal of zero', (_, body) => body.setHeader({ ...body.getHeader(), normalization: { center: [0, 0, 0], diagonal: 0 } })],
+  ])('refuses a body with %s', async (_, change) => {
+    const document = makeScene();
+    attachBody(document, makeBody(document));
+    change(document, property(document));
+    expect(await codeOf(() => readBody(document))).toBe('body-invalid');
+  });
+
+  it('is checked before it is attached', async () => {
+    const document = makeScene();
+    const body = makeBody(document);
+    expect(await codeOf(() => attachBody(document, { ...body, distances: new Uint16Array(3) }))).toBe('body-invalid');
+    expect(await codeOf(() => attachBody(document, { ...body, version: 7 as 0 }))).toBe('body-version');
+    expect(readBody(document)).toBeUndefined();
+    expect(
+      document
+        .getRoot()
+        .listExtensionsUsed()
+        .some((extension) => extension instanceof BodyExtension),
+    ).toBe(false);
+  });
+});
+
+describe('HANDLEBODY_pose_space', () => {
+  it('comes back from a GLB, on its own mesh', async () => {
+    const document = makeScene();
+    const second = document.getRoot().listMeshes()[1];
+    attachPoseSpace(document, second as NonNullable<typeof second>, POSES);
+    const back = readPoseSpaces(await readGlb(await writeGlb(document)));
+    expect(back.map(({ mesh, ...space }) => [mesh.getName(), space])).toEqual([['face 1', POSES]]);
+  });
+
+  it('is replaced, not added to, and does not keep the array it was given', () => {
+    const document = makeScene();
+    const [mesh] = document.getRoot().listMeshes();
+    const weights = [1, 0];
+    const space = { ...POSES, examples: [{ name: 'a', at: [0, 0], weights }] };
+    attachPoseSpace(document, mesh as NonNullable<typeof mesh>, POSES);
+    attachPoseSpace(document, mesh as NonNullable<typeof mesh>, space);
+    weights[0] = 5;
+    expect(readPoseSpaces(document)).toHaveLength(1);
+    expect(readPoseSpaces(document)[0]?.examples).toEqual([{ name: 'a', at: [0, 0], weights: [1, 0] }]);
+  });
+
+  it.each<[string, string, Record<string, unknown>]>([
+    ['another version', 'file-unsupported', { version: 1 }],
+    ['no dimensions', 'file-invalid', { dimensions: [] }],
+    ['a dimension without extent', 'file-invalid', { dimensions: [{ name: 'valence', min: 1, max: 1 }, POSES.dimensions[1]] }],
+    ['one name twice', 'file-invalid', { dimensions: [POSES.dimensions[0], POSES.dimensions[0]] }],
+    ['examples that are no list', 'file-invalid', { examples: 'x' }],
+    ['a place of another dimension', 'example-shape-mismatch', { examples: [{ name: 'a', at: [1], weights: [0, 1] }] }],
+    ['weights for other targets', 'example-shape-mismatch', { examples: [{ name: 'a', at: [1, 0], weights: [0, 1, 2] }] }],
+    ['weights that are no numbers', 'example-not-finite', { examples: [{ name: 'a', at: [1, 0], weights: [0, null] }] }],
+  ])('refuses %s', async (_, code, change) => {
+    const document = makeScene();
+    const [mesh] = document.getRoot().listMeshes();
+    attachPoseSpace(document, mesh as NonNullable<typeof mesh>, POSES);
+    mesh?.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE)?.setDefinition({ ...POSES, ...change });
+    const back = await readGlb(await writeGlb(document));
+    expect(await codeOf(() => readPoseSpaces(back))).toBe(code);
+  });
+});

@@ -1,0 +1,40 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { load as loadExternal } from '../../wasm/ts/external.ts';
+import { HandlebodyError, load } from '../../wasm/ts/index.ts';
+import { boxMesh } from './support/shapes.ts';
+
+const wasmFile = new URL('../../wasm/handlebody.wasm', import.meta.url);
+
+describe('load', () => {
+  it('starts from the wasm inside, from bytes, from a module and from a file URL', async () => {
+    const bytes = readFileSync(wasmFile);
+    for (const wasm of [undefined, bytes, await WebAssembly.compile(bytes), wasmFile]) {
+      const hb = await load(wasm ? { wasm } : {});
+      expect(hb.memory).toBeGreaterThan(0);
+    }
+    expect((await loadExternal({ wasm: wasmFile })).memory).toBeGreaterThan(0);
+  });
+
+  it('carries exactly the committed wasm inside', async () => {
+    const { WASM_BYTES } = await import('../../wasm/ts/binary.generated.ts');
+    expect(WASM_BYTES).toBe(readFileSync(wasmFile).length);
+  });
+
+  it('says what is wrong with a file that is not the solver', async () => {
+    const error = await load({ wasm: new Uint8Array([0, 1, 2, 3]) }).catch((e: unknown) => e);
+    expect(error).toBeInstanceOf(HandlebodyError);
+    expect(error).toMatchObject({ code: 'wasm-unavailable', remedy: expect.stringContaining('browser') });
+  });
+
+  it('stops when its signal is aborted', async () => {
+    await expect(load({ signal: AbortSignal.abort() })).rejects.toMatchObject({ code: 'aborted' });
+  });
+
+  it('keeps two instances apart', async () => {
+    const [a, b] = await Promise.all([load(), load()]);
+    const before = b.memory;
+    await a.bake(boxMesh([1, 1, 1], [4, 4, 4]), { centers: 100, resolution: 48 });
+    expect(b.memory).toBe(before);
+  });
+});

@@ -1,0 +1,110 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { difference, frames, launch, PHONE, picture, soon, visit } from './support/studio.ts';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+
+/** The examples' weights as the page shows them. */
+async function weights(page: Page): Promise<Record<string, number>> {
+  return page.evaluate(() =>
+    Object.fromEntries(
+      [...document.querySelectorAll<HTMLElement>('.weight-row')].map((row) => [
+        row.dataset.example ?? '',
+        Number(row.querySelector('.weight-number')?.textContent?.replace('−', '-')),
+      ]),
+    ),
+  );
+}
+
+const place = async (page: Page) => (await page.locator('.place').textContent()) ?? '';
+
+describe('the emotion pad', () => {
+  it('has 16 named examples or more and begins at neutral', async () => {
+    const { page, said } = await visit(browser, { hash: '#face' });
+    const all = await weights(page);
+    expect(Object.keys(all).length).toBeGreaterThanOrEqual(16);
+    expect(all.neutral).toBe(1);
+    expect(await place(page)).toBe('valence 0.00, arousal 0.00, neutral');
+    expect(await page.locator('.sum').textContent()).toBe('sum 1.00');
+    expect(said).toEqual([]);
+  });
+
+  it('follows the puck, snaps to a clicked dot, comes back by Esc and by reset', async () => {
+    const { page } = await visit(browser, { hash: '#face' });
+    const before = await picture(page);
+    const pad = await page.locator('.pad').boundingBox();
+    if (!pad) throw new Error('there is no pad');
+    const at = (x: number, y: number) => [pad.x + ((x + 1) / 2) * pad.width, pad.y + ((1 - y) / 2) * pad.height] as const;
+    await page.mouse.move(...at(0, 0));
+    await page.mouse.down();
+    await page.mouse.move(...at(0.3, 0.5), { steps: 5 });
+    await page.mouse.move(...at(0.62, 0.55), { steps: 5 });
+    expect(await place(page)).toMatch(/^valence 0\.6\d, arousal 0\.5\d, near /);
+    await soon(async () => (await weights(page)).neutral).toBeLessThan(0.6);
+    await page.keyboard.press('Escape');
+    expect(await place(page)).toBe('valence 0.00, arousal 0.00, neutral');
+    await page.mouse.up();
+
+    // Near, not on, the dot of "happy".
+    const [x, y] = at(0.83, 0.53);
+    await page.mouse.click(x + 4, y - 3);
+    expect(await place(page)).toBe('valence 0.83, arousal 0.53, happy');
+    await soon(async () => (await weights(page)).happy).toBe(1);
+    await soon(async () => difference(before, await picture(page))).toBeGreaterThan(500);
+    expect(await page.locator('.sum').textContent()).toBe('sum 1.00');
+    const sliders = page.getByRole('slider');
+    expect(Number(await sliders.nth(1).inputValue())).toBe(0.83);
+
+    await page.locator('#reset').click();
+    await soon(async () => (await weights(page)).neutral).toBe(1);
+    await soon(async () => difference(before, await picture(page))).toBeLessThan(20);
+  });
+
+  it('is steered by the sliders with the keyboard', async () => {
+    const { page } = await visit(browser, { hash: '#face' });
+    const before = await picture(page);
+    const valence = page.getByRole('slider', { name: 'Valence' });
+    const arousal = page.getByRole('slider', { name: 'Arousal' });
+    await valence.focus();
+    await page.keyboard.press('ArrowRight');
+    expect(await place(page)).toMatch(/^valence 0\.01/);
+    await page.keyboard.press('Home');
+    await arousal.focus();
+    await page.keyboard.press('PageDown');
+    expect(Number(await arousal.inputValue())).toBeLessThan(-0.05);
+    expect(await arousal.getAttribute('aria-valuetext')).toMatch(/^−0\.\d\d/);
+    await soon(async () => (await weights(page)).neutral).toBeLessThan(0.5);
+    await soon(async () => difference(before, await picture(page))).toBeGreaterThan(500);
+    // The place is read out once the puck has rested.
+    await soon(() => page.locator('[aria-live=polite]').textContent()).toMatch(/^valence −1\.00, arousal −0\.\d\d/);
+  });
+
+  it('goes to an example by its name', async () => {
+    const { page } = await visit(browser, { hash: '#face', reducedMotion: 'reduce' });
+    await page.getByRole('button', { name: /^sad/ }).click();
+    await frames(page, 2);
+    expect(await place(page)).toBe('valence −0.65, arousal −0.27, sad');
+    expect((await weights(page)).sad).toBe(1);
+  });
+
+  it('shows the names of the dots without one covering another, on a phone too', async () => {
+    const { page } = await visit(browser, { hash: '#face', ...PHONE });
+    const boxes = await page.evaluate(() =>
+      [...document.querySelectorAll('.dot-name')]
+        .map((name) => name.getBoundingClientRect().toJSON() as DOMRect)
+        .filter((box) => box.width > 0),
+    );
+    expect(boxes.length).toBeGreaterThanOrEqual(14);
+    for (const [i, a] of boxes.entries()) {
+      for (const b of boxes.slice(i + 1)) {
+        const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const down = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        expect(Math.min(across, down)).toBeLessThan(4);
+      }
+    }
+  });
+});

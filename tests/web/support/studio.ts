@@ -1,0 +1,102 @@
+import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
+import { PNG } from 'pngjs';
+import { expect, inject, onTestFinished } from 'vitest';
+import { CHROMIUM_ARGS, findChromium } from '../../../scripts/chromium.mjs';
+
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } as const;
+
+export async function launch(): Promise<Browser> {
+  return chromium.launch({ executablePath: await findChromium(), args: CHROMIUM_ARGS });
+}
+
+export interface Visit extends BrowserContextOptions {
+  readonly hash?: string;
+  /** Runs in the page before anything else. */
+  readonly before?: () => void;
+  /** For a page that several tests share: it is not closed when the test ends. */
+  readonly shared?: boolean;
+  /** What `#studio[data-state]` has to become. */
+  readonly state?: 'ready' | 'failed';
+}
+
+/** Opens the studio in a context of its own, waits for it, and collects what the console says. */
+export async function visit(
+  browser: Browser,
+  { hash = '', before, shared = false, state = 'ready', ...options }: Visit = {},
+): Promise<{ page: Page; said: string[] }> {
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
+  if (!shared) onTestFinished(() => context.close());
+  const page = await context.newPage();
+  const said: string[] = [];
+  page.on(
+    'console',
+    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
+  );
+  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
+  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  if (before) await page.addInitScript(before);
+  await page.goto(`${inject('site')}studio/${hash}`);
+  await page.waitForSelector(`#studio[data-state=${state}]`, { timeout: 60_000 });
+  if (state === 'ready') await settled(page);
+  return { page, said };
+}
+
+/** Waits until the shape has come to rest and a frame with it was drawn. */
+export async function settled(page: Page): Promise<void> {
+  await page.waitForFunction(() => {
+    const readout = document.getElementById('readout');
+    return readout?.hidden || readout?.hasAttribute('data-settled');
+  });
+  await frames(page, 3);
+}
+
+export async function frames(page: Page, count: number): Promise<void> {
+  await page.evaluate(async (n) => {
+    for (let i = 0; i < n; i++) await new Promise(requestAnimationFrame);
+  }, count);
+}
+
+export type Triple = [number, number, number];
+
+/** Where the surface under a handle is, model units. */
+export async function surface(page: Page, name: string): Promise<Triple> {
+  const text = await page.locator(`.handle[data-name="${name}"]`).getAttribute('data-surface');
+  return (text ?? '').split(' ').map(Number) as Triple;
+}
+
+export function distance(a: Triple, b: Triple): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/** Middle of a handle on the screen. */
+export async function middle(page: Page, name: string): Promise<{ x: number; y: number }> {
+  const box = await page.locator(`.handle[data-name="${name}"]`).boundingBox();
+  if (!box) throw new Error(`there is no handle "${name}"`);
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** The picture of the view without anything that lies over it. */
+export async function picture(page: Page): Promise<PNG> {
+  const style = '.handles, .tether, .camera-tools, .readout, .note, .messages, .progress { visibility: hidden !important; }';
+  return PNG.sync.read(await page.locator('#viewport').screenshot({ style, animations: 'disabled' }));
+}
+
+/** How many pixels differ visibly. */
+export function difference(a: PNG, b: PNG, threshold = 24): number {
+  if (a.width !== b.width || a.height !== b.height) throw new Error('the pictures differ in size');
+  let count = 0;
+  for (let i = 0; i < a.data.length; i += 4) {
+    const d = [0, 1, 2].reduce((sum, k) => sum + Math.abs((a.data[i + k] ?? 0) - (b.data[i + k] ?? 0)), 0);
+    if (d > threshold) count++;
+  }
+  return count;
+}
+
+export async function openFile(page: Page, name: string, content: Uint8Array | string): Promise<void> {
+  await page.setInputFiles('#file', { name, mimeType: 'application/octet-stream', buffer: Buffer.from(content as Uint8Array) });
+}
+
+/** `expect.poll` with patience: software WebGL on a busy machine draws a few frames a second. */
+export function soon<T>(read: () => T) {
+  return expect.poll(read, { timeout: 30_000 });
+}

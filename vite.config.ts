@@ -1,0 +1,35 @@
+// The site: every web/**/index.html is one page of it.
+import { existsSync, readdirSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vite';
+
+const web = fileURLToPath(new URL('./web', import.meta.url));
+const files = existsSync(web)
+  ? readdirSync(web, { recursive: true, encoding: 'utf8' }).map((file) => file.replaceAll('\\', '/'))
+  : [];
+
+/** studio/index.html becomes the page "studio", index.html the page "main". */
+const pages = files
+  .filter((file) => /(^|\/)index\.html$/.test(file))
+  .sort()
+  .map((file) => [path.posix.dirname(file).replace(/^\.$/, 'main').replaceAll('/', '-'), path.join(web, file)]);
+
+export default defineConfig({
+  root: web,
+  publicDir: '../public',
+  base: './',
+  worker: { format: 'es' },
+  build: {
+    outDir: '../build/site',
+    emptyOutDir: true,
+    target: 'es2022',
+    manifest: true,
+    chunkSizeWarningLimit: 1000,
+    rolldownOptions: {
+      input: Object.fromEntries(pages),
+      // three.js in a chunk of its own: cached over our releases, and told apart by the size budget.
+      output: { codeSplitting: { groups: [{ name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ }] } },
+    },
+  },
+});

@@ -1,0 +1,110 @@
+#include "core/irbf/irbf.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abi/support.hpp"
+
+using handlebody::fail;
+using handlebody::Irbf;
+using handlebody::Points;
+
+struct hb_irbf {
+  std::unique_ptr<Irbf> irbf;
+};
+
+namespace {
+
+/** The voxel domain of a body from outside: a grid that cannot be indexed, or voxels off it, must not get further. */
+handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
+  handlebody::Grid grid;
+  grid.origin = Eigen::Map<const handlebody::Vector3>(body.origin);
+  grid.spacing = body.spacing;
+  double cells = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    grid.dims[axis] = static_cast<int32_t>(std::min(body.dims[axis], 1u << 20));
+    cells *= grid.dims[axis];
+  }
+  const bool usable = cells > 0 && cells <= 6.4e7 && grid.origin.allFinite() && std::isfinite(grid.spacing) && grid.spacing > 0;
+  std::vector<uint32_t> voxels(body.voxels, body.voxels + body.voxel_count);
+  const bool ascending = std::adjacent_find(voxels.begin(), voxels.end(), std::greater_equal<>()) == voxels.end();
+  if (!usable || !ascending || (!voxels.empty() && voxels.back() >= static_cast<uint64_t>(grid.size()))) {
+    return handlebody::Error{HB_ERROR_BODY_INVALID, "The baked body's voxel grid is not usable, or its voxels lie outside the grid.",
+                             "Bake the model again with this version."};
+  }
+  return handlebody::VoxelDomain(grid, std::move(voxels));
+}
+
+}  // namespace
+
+extern "C" {
+
+int32_t hb_irbf_create(const hb_body* from, uint32_t kernel, double relative_width, double smoothness, double anchor_weight,
+                       double edge_exponent, hb_irbf** out) {
+  if (kernel >= handlebody::kernel_count) {
+    return fail({HB_ERROR_INVALID_OPTION, "There is no kernel " + std::to_string(kernel) + ".", "Use a number of the kernel list.",
+                 HB_CULPRIT_OPTION});
+  }
+  auto domain = read_domain(*from);
+  if (!domain) return fail(domain.error());
+  handlebody::Body body;
+  body.positions = Eigen::Map<const Points>(from->positions, from->vertex_count, 3);
+  body.triangles = Eigen::Map<const handlebody::Triangles>(from->triangles, from->triangle_count, 3);
+  body.normalization = {Eigen::Map<const handlebody::Vector3>(from->center), from->diagonal};
+  body.domain = std::move(*domain);
+  body.centers.assign(from->centers, from->centers + from->center_count);
+  body.distances.assign(from->distances, from->distances + std::size_t{from->center_count} * from->voxel_count);
+  body.distance_scale = from->distance_scale;
+  for (uint32_t s = 0; s < from->sphere_count; ++s) {
+    const double* sphere = from->spheres + 4 * s;
+    body.spheres.push_back({handlebody::Vector3(sphere[0], sphere[1], sphere[2]), sphere[3]});
+  }
+  handlebody::IrbfOptions options;
+  options.kernel = static_cast<handlebody::KernelKind>(kernel);
+  options.relative_width = relative_width;
+  options.smoothness = smoothness;
+  options.anchor_weight = anchor_weight;
+  options.edge_exponent = edge_exponent;
+  auto irbf = Irbf::create(std::move(body), options);
+  if (!irbf) return fail(irbf.error());
+  *out = new hb_irbf{std::move(*irbf)};
+  return HB_OK;
+}
+
+int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count) {
+  std::vector<handlebody::HandleKind> list(count);
+  std::transform(kinds, kinds + count, list.begin(),
+                 [](uint32_t kind) { return kind == 1 ? handlebody::HandleKind::rotation : handlebody::HandleKind::position; });
+  auto done = irbf->irbf->set_handles(Eigen::Map<const Points>(points, count, 3), list);
+  return done ? HB_OK : fail(done.error());
+}
+
+double* hb_irbf_targets(hb_irbf* irbf) { return irbf->irbf->targets(); }
+
+int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, hb_irbf_report* report) {
+  const auto solved = irbf->irbf->solve(static_cast<int>(std::min(max_iterations, 1u << 20)), tolerance);
+  if (!solved) return fail(solved.error());
+  report->energy = solved->energy;
+  report->anchor_error = solved->anchor_error;
+  report->change = solved->change;
+  report->iterations = static_cast<uint32_t>(solved->iterations);
+  report->converged = solved->converged ? 1 : 0;
+  return HB_OK;
+}
+
+int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normals, float* normals) {
+  irbf->irbf->deform(positions, rest_normals, normals);
+  return HB_OK;
+}
+
+int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out) {
+  Eigen::Map<Points>(out, count, 3) = irbf->irbf->evaluate(Eigen::Map<const Points>(points, count, 3));
+  return HB_OK;
+}
+
+void hb_irbf_free(hb_irbf* irbf) { delete irbf; }
+}

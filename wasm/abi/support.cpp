@@ -1,0 +1,38 @@
+#include "abi/support.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+hb_error last_error{};
+
+template <std::size_t N>
+void copy_text(char (&target)[N], const std::string& text) {
+  const std::size_t length = std::min(N - 1, text.size());
+  std::memcpy(target, text.data(), length);
+  target[length] = '\0';
+}
+
+}  // namespace
+
+int32_t handlebody::fail(const Error& error) {
+  last_error.code = error.code;
+  last_error.culprit = error.culprit;
+  last_error.index = static_cast<int32_t>(error.index);
+  copy_text(last_error.message, error.message);
+  copy_text(last_error.remedy, error.remedy);
+  return error.code;
+}
+
+extern "C" {
+
+uint32_t hb_abi_version(void) { return 1; }
+
+const hb_error* hb_last_error(void) { return &last_error; }
+
+void* hb_alloc(uint32_t bytes) { return std::malloc(bytes); }
+
+void hb_release(void* memory) { std::free(memory); }
+}

@@ -1,0 +1,47 @@
+// A baked body: a mesh with the interior distances and spheres that IRBF needs (paper 001, §1.2 "precomputation steps" 1–3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/distance/voxel_domain.hpp"
+#include "core/irbf/sphere_packing.hpp"
+#include "core/numerics/result.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+/** Solver space is the model scaled to a unit bounding-box diagonal and centered on its box, so that λ, h and tolerances mean the
+ *  same for every model. */
+struct Normalization {
+  Vector3 center = Vector3::Zero();
+  double diagonal = 1;
+
+  Vector3 to_solver(const Vector3& model) const { return (model - center) / diagonal; }
+  Vector3 to_model(const Vector3& solver) const { return center + diagonal * solver; }
+};
+
+struct Body {
+  Points positions;     // as stored, model units
+  Triangles triangles;  // as stored
+  Normalization normalization;
+  VoxelDomain domain;                    // solver space, like all below
+  std::vector<std::uint32_t> centers;    // stored vertex numbers
+  std::vector<std::uint16_t> distances;  // centers × voxels: interior distance = distance_scale · code
+  double distance_scale = 0;
+  std::vector<Sphere> spheres;
+
+  Points solver_positions() const;
+  Vector3 center_position(Index center) const;
+};
+
+/** Checks that a mesh can be baked or deformed at all: sizes, finiteness, index ranges, extent. */
+Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles);
+
+/** The normalization of a checked mesh. */
+Normalization normalize(const ConstPoints& positions);
+
+/** Checks that the arrays of a body from outside agree with each other before they are used. */
+Result<Done> check_body(const Body& body);
+
+}  // namespace handlebody

@@ -1,0 +1,74 @@
+#include "core/irbf/sphere_packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace handlebody {
+namespace {
+
+constexpr double tie = 1e-6;  // in spacings: distances that differ by rounding only are equal
+
+/** Voxels by falling surface distance; ties in voxel order, whatever the rounding. */
+std::vector<std::int32_t> largest_first(const std::vector<double>& surface_distance, double spacing) {
+  std::vector<std::int64_t> keys(surface_distance.size());
+  for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = std::llround(surface_distance[v] / (tie * spacing));
+  std::vector<std::int32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t u, std::int32_t v) { return keys[u] != keys[v] ? keys[u] > keys[v] : u < v; });
+  return order;
+}
+
+/** Marks the voxels whose centers lie in the sphere: no sphere that may only overlap in part can be centered there. */
+void cover(const VoxelDomain& domain, const Sphere& sphere, std::vector<bool>& covered) {
+  const Grid& grid = domain.grid();
+  std::array<int, 3> low{}, high{};
+  for (int a = 0; a < 3; ++a) {
+    const double middle = (sphere.center[a] - grid.origin[a]) / grid.spacing, radius = sphere.radius / grid.spacing;
+    low[a] = static_cast<int>(std::clamp(std::ceil(middle - radius), 0.0, double(grid.dims[a])));
+    high[a] = static_cast<int>(std::clamp(std::floor(middle + radius), -1.0, double(grid.dims[a] - 1)));
+  }
+  for (int k = low[2]; k <= high[2]; ++k) {
+    for (int j = low[1]; j <= high[1]; ++j) {
+      for (int i = low[0]; i <= high[0]; ++i) {
+        const std::int32_t v = domain.number(i, j, k);
+        if (v >= 0 && (domain.center(v) - sphere.center).squaredNorm() < sphere.radius * sphere.radius) covered[v] = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
+                                 const SpherePackingOptions& options) {
+  const std::vector<std::int32_t> component = face_components(domain);
+  std::int64_t waiting =
+      component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;  // parts without a sphere
+  std::vector<bool> served(static_cast<std::size_t>(waiting)), covered(component.size());
+  const double min_radius = options.min_radius * domain.grid().spacing;
+
+  std::vector<Sphere> spheres;
+  for (const std::int32_t v : largest_first(surface_distance, domain.grid().spacing)) {
+    const Sphere sphere{domain.center(v), options.shrink * surface_distance[v]};
+    const bool first_of_part = !served[component[v]];
+    const bool room = static_cast<std::int64_t>(spheres.size()) + waiting < options.max_spheres && sphere.radius >= min_radius;
+    if (waiting == 0 && !room) break;  // the radii only fall from here on
+    if (!first_of_part) {
+      if (!room || covered[v]) continue;
+      const auto too_close = [&](const Sphere& other) {
+        const double gap = sphere.radius + other.radius - options.max_overlap * std::min(sphere.radius, other.radius);
+        return (sphere.center - other.center).squaredNorm() < gap * gap;
+      };
+      if (options.max_overlap < 2 && std::any_of(spheres.begin(), spheres.end(), too_close)) continue;
+    }
+    spheres.push_back(sphere);
+    if (first_of_part) served[component[v]] = true, --waiting;
+    if (options.max_overlap <= 1) cover(domain, sphere, covered);
+  }
+  return spheres;
+}
+
+}  // namespace handlebody

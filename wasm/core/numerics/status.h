@@ -1,0 +1,69 @@
+/* Every status code of Handlebody, from the solver, the loader and the file readers alike. The TypeScript names are generated from
+ * this list: HB_ERROR_MESH_NOT_FINITE becomes 'mesh-not-finite'. Codes are stable: numbers are never reused. */
+#ifndef HANDLEBODY_STATUS_H
+#define HANDLEBODY_STATUS_H
+
+typedef enum hb_status {
+  HB_OK = 0,
+
+  /* general */
+  HB_ERROR_INTERNAL = 1,         /* a defect of ours; the message says where */
+  HB_ERROR_OUT_OF_MEMORY = 2,    /* a size was refused before it was allocated, or memory ran out */
+  HB_ERROR_INVALID_OPTION = 3,   /* an option outside its documented range */
+  HB_ERROR_INVALID_SHAPE = 4,    /* an array whose length does not fit the others */
+  HB_ERROR_DISPOSED = 5,         /* the object was used after dispose() */
+  HB_ERROR_ABORTED = 6,          /* the caller's AbortSignal fired */
+  HB_ERROR_WASM_UNAVAILABLE = 7, /* WebAssembly is missing, blocked or could not be compiled */
+  HB_ERROR_WASM_TRAPPED = 8,     /* the instance trapped before; load() a new one */
+
+  /* meshes */
+  HB_ERROR_MESH_TOO_FEW_VERTICES = 20,
+  HB_ERROR_MESH_NO_TRIANGLES = 21,
+  HB_ERROR_MESH_NOT_FINITE = 22,
+  HB_ERROR_MESH_INDEX_OUT_OF_RANGE = 23,
+  HB_ERROR_MESH_ZERO_EXTENT = 24, /* all vertices coincide */
+  HB_ERROR_MESH_NO_INTERIOR = 25, /* no voxel lies inside: an open sheet, or a grid too coarse */
+  HB_ERROR_MESH_TOO_LARGE = 26,
+
+  /* baked bodies */
+  HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
+  HB_ERROR_BODY_MISMATCH = 41, /* baked for another mesh */
+  HB_ERROR_BODY_VERSION = 42,  /* a format version this build does not know */
+
+  /* handles */
+  HB_ERROR_HANDLE_OUT_OF_RANGE = 60, /* its vertex is not in the mesh */
+  HB_ERROR_HANDLE_OUTSIDE = 61,      /* its point is outside the model */
+  HB_ERROR_HANDLE_CONFLICT = 62,     /* two handles at one place want different targets */
+  HB_ERROR_HANDLE_NOT_FINITE = 63,
+  HB_ERROR_TARGET_NOT_FINITE = 64,
+  HB_ERROR_HANDLES_MISSING = 65, /* solve() before any handle was set */
+
+  /* pose spaces and scattered data */
+  HB_ERROR_EXAMPLE_DUPLICATE = 80, /* two examples at one place with different shapes */
+  HB_ERROR_EXAMPLE_NOT_FINITE = 81,
+  HB_ERROR_EXAMPLES_TOO_FEW = 82,
+  HB_ERROR_EXAMPLES_DEGENERATE = 83, /* places that do not span the polynomial tail, e.g. on one line */
+  HB_ERROR_EXAMPLE_SHAPE_MISMATCH = 84,
+  HB_ERROR_QUERY_NOT_FINITE = 85,
+
+  /* files */
+  HB_ERROR_FILE_NOT_GLB = 100,
+  HB_ERROR_FILE_TRUNCATED = 101,
+  HB_ERROR_FILE_INVALID = 102,
+  HB_ERROR_FILE_UNSUPPORTED = 103, /* valid, but needs a feature or extension we do not read */
+  HB_ERROR_FILE_UNREADABLE = 104   /* network or file system */
+} hb_status;
+
+/* What an error's index points at. */
+typedef enum hb_culprit {
+  HB_CULPRIT_NONE = 0,
+  HB_CULPRIT_VERTEX = 1,
+  HB_CULPRIT_TRIANGLE = 2,
+  HB_CULPRIT_HANDLE = 3,
+  HB_CULPRIT_EXAMPLE = 4,
+  HB_CULPRIT_OPTION = 5,
+  HB_CULPRIT_CENTER = 6,
+  HB_CULPRIT_BYTE = 7
+} hb_culprit;
+
+#endif

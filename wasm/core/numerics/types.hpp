@@ -1,0 +1,27 @@
+// The matrix types that the core shares. Points and coefficients are row-major: one row a point, as in the typed arrays outside.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace handlebody {
+
+using Index = Eigen::Index;
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/** n×3 positions, one row a point. */
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using PointsF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/** m×3 vertex indices, counter-clockwise seen from outside. */
+using Triangles = Eigen::Matrix<std::uint32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+using ConstPoints = Eigen::Ref<const Points>;
+using ConstTriangles = Eigen::Ref<const Triangles>;
+
+}  // namespace handlebody

@@ -1,0 +1,109 @@
+#include "core/posespace/pose_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace handlebody {
+
+namespace {
+
+constexpr double coincident = 1e-9;  // of the diagonal
+constexpr double reach = 1000;       // diagonals
+
+/** Width as a part of the distance to the nearest neighbor: see PoseSpaceOptions. */
+double automatic_width(KernelKind kind) {
+  switch (kind) {
+    case KernelKind::multiquadric:
+      return 0.5;
+    case KernelKind::gaussian:
+      return 0.75;
+    default:
+      return 1;
+  }
+}
+
+// Halving first, since the extent of huge coordinates may overflow.
+double diagonal_of(const Eigen::Ref<const Matrix>& places) {
+  return 2 * (places.colwise().maxCoeff() / 2 - places.colwise().minCoeff() / 2).stableNorm();
+}
+
+/** Distance of every place to its nearest neighbor, or EXAMPLE_DUPLICATE. */
+Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
+  const Index count = places.rows();
+  const double tolerance = coincident * diagonal_of(places);
+  Vector spacing = Vector::Constant(count, std::numeric_limits<double>::infinity());
+  for (Index i = 1; i < count; ++i) {
+    for (Index j = 0; j < i; ++j) {
+      const double distance = (places.row(i) - places.row(j)).stableNorm();
+      if (distance <= tolerance)
+        return Error{HB_ERROR_EXAMPLE_DUPLICATE,
+                     "Example " + std::to_string(i) + " is at the same place as example " + std::to_string(j) + ".",
+                     "Move one of the two, or remove it.", HB_CULPRIT_EXAMPLE, i};
+      spacing[i] = std::min(spacing[i], distance);
+      spacing[j] = std::min(spacing[j], distance);
+    }
+  }
+  return spacing;
+}
+
+}  // namespace
+
+Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options) {
+  const Index count = places.rows();
+  if (count == 0 || places.cols() == 0)
+    return Error{HB_ERROR_EXAMPLES_TOO_FEW, "A pose space needs at least one example.", "Give one or more examples with a place."};
+  for (Index i = 0; i < count; ++i)
+    if (!places.row(i).allFinite())
+      return Error{HB_ERROR_EXAMPLE_NOT_FINITE, "The place of example " + std::to_string(i) + " is not finite.",
+                   "Remove NaN and infinite coordinates.", HB_CULPRIT_EXAMPLE, i};
+  if (!(options.width >= 0) || !std::isfinite(options.width))
+    return Error{HB_ERROR_INVALID_OPTION, "The width is not a positive finite number.",
+                 "Give it in units of the places, or leave it out to have it chosen.", HB_CULPRIT_OPTION, -1};
+  const bool normalized = options.method == PoseSpaceMethod::normalized;
+  if (options.degree < (normalized ? -1 : 0) || options.degree > 1)
+    return Error{HB_ERROR_INVALID_OPTION, "The degree is not 0 or 1.",
+                 "Use 0, or 1 for weights that reproduce linear functions; without a tail weights would not sum to 1.",
+                 HB_CULPRIT_OPTION, -1};
+
+  RadialBasisOptions rbf;
+  rbf.kernel = {options.kernel, options.width > 0 ? options.width : 1};
+  rbf.degree = options.degree;
+  rbf.normalized = normalized;
+  if (count == 1) {
+    // The constant 1 is the only answer, and the only one that every kernel and degree would leave undetermined or refuse.
+    rbf = {{KernelKind::multiquadric, 1}, 0, false, {}};
+  } else {
+    auto spacing = spacing_of(places);
+    if (!spacing) return spacing.error();
+    if (options.width == 0 && spacing->allFinite()) rbf.widths = automatic_width(options.kernel) * *spacing;
+  }
+  auto interpolant = RadialBasisInterpolant::create(places, rbf);
+  if (!interpolant) return interpolant.error();
+  return PoseSpace(std::move(*interpolant), places);
+}
+
+PoseSpace::PoseSpace(RadialBasisInterpolant rbf, const Eigen::Ref<const Matrix>& places)
+    : rbf_(std::move(rbf)),
+      center_(places.colwise().maxCoeff() / 2 + places.colwise().minCoeff() / 2),
+      reach_(reach * std::max(diagonal_of(places), std::numeric_limits<double>::min())),
+      query_(places.cols()) {}
+
+Result<Done> PoseSpace::weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out) {
+  for (Index k = 0; k < query.size(); ++k)
+    if (!std::isfinite(query[k]))
+      return Error{HB_ERROR_QUERY_NOT_FINITE, "Coordinate " + std::to_string(k) + " of the query is not finite.",
+                   "Ask for weights at finite coordinates."};
+  query_ = query / 2 - center_ / 2;
+  const double half_distance = query_.stableNorm();
+  if (half_distance > reach_ / 2)
+    query_ = center_ + query_ * (reach_ / half_distance);
+  else
+    query_ = query;
+  rbf_.weights(query_, out);
+  return Done{};
+}
+
+}  // namespace handlebody

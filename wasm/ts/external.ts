@@ -1,0 +1,11 @@
+import { type Handlebody, instantiate, type LoadOptions } from './load.ts';
+
+export * from './api.ts';
+
+/**
+ * Loads the solver from a separate file: smaller to transfer and compiled while it streams, for sites that host
+ * `handlebody.wasm` themselves. Without `wasm` the file is looked for in the package, where Node and most bundlers find it.
+ */
+export async function load(options: LoadOptions = {}): Promise<Handlebody> {
+  return instantiate(options.wasm ?? new URL('../../../wasm/handlebody.wasm', import.meta.url), options.signal);
+}

@@ -1,0 +1,17 @@
+/**
+ * A 64-bit hash, after FNV-1a, of positions rounded to float: it ties baked distances to the mesh that they were computed for, however
+ * the file that carries both was stored. Not a defence against forgery.
+ */
+export function hashPositions(positions: Float32Array | Float64Array): string {
+  const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
+  const words = new Uint32Array(floats.buffer, floats.byteOffset, floats.length);
+  // Two 32-bit lanes with different offsets and primes: BigInt arithmetic would take seconds on a large model.
+  let low = 0x811c9dc5;
+  let high = 0xcbf29ce4;
+  for (const word of words) {
+    low = Math.imul(low ^ word, 0x01000193);
+    high = Math.imul(high ^ word, 0x01000197) ^ (low >>> 15);
+  }
+  const hex = (n: number) => (n >>> 0).toString(16).padStart(8, '0');
+  return hex(high) + hex(low);
+}

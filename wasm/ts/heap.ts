@@ -1,0 +1,148 @@
+import { CULPRIT_KINDS, ERROR_CODES, type Exports, LAYOUT } from './abi.generated.ts';
+import { type Culprit, HandlebodyError } from './errors.ts';
+
+type NumberArray = ArrayLike<number> & { readonly length: number };
+
+/**
+ * The only code that touches wasm memory. Any call into the module may grow its memory, after which every earlier view silently
+ * reads as empty: so views are made fresh by each method here and never kept.
+ */
+export class Heap {
+  readonly #exports: Exports;
+  #trapped: unknown;
+
+  constructor(exports: Exports) {
+    this.#exports = exports;
+  }
+
+  /** The instance's memory in bytes, now. */
+  get byteLength(): number {
+    return this.#exports.memory.buffer.byteLength;
+  }
+
+  f64(pointer: number, length: number): Float64Array {
+    return new Float64Array(this.#exports.memory.buffer, pointer >>> 0, length);
+  }
+  f32(pointer: number, length: number): Float32Array {
+    return new Float32Array(this.#exports.memory.buffer, pointer >>> 0, length);
+  }
+  u32(pointer: number, length: number): Uint32Array {
+    return new Uint32Array(this.#exports.memory.buffer, pointer >>> 0, length);
+  }
+  u16(pointer: number, length: number): Uint16Array {
+    return new Uint16Array(this.#exports.memory.buffer, pointer >>> 0, length);
+  }
+
+  /** Reserves `bytes` of zeroed memory, 16-byte aligned. Throws 'out-of-memory' when there is none. */
+  alloc(bytes: number): number {
+    const pointer = bytes <= 0xffff_ffff ? this.call((e) => e.hb_alloc(Math.max(bytes, 16))) >>> 0 : 0;
+    if (pointer === 0) {
+      throw new HandlebodyError('out-of-memory', {
+        message: `The solver could not reserve ${(bytes / 2 ** 20).toFixed(1)} MiB of memory.`,
+        remedy: 'Use a smaller model, fewer centers or a coarser resolution, or dispose of objects that are no longer used.',
+      });
+    }
+    new Uint8Array(this.#exports.memory.buffer, pointer, bytes).fill(0);
+    return pointer;
+  }
+
+  free(pointer: number): void {
+    if (pointer !== 0 && this.#trapped === undefined) this.#exports.hb_release(pointer);
+  }
+
+  /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
+  call<T>(run: (exports: Exports) => T): T {
+    if (this.#trapped !== undefined) throw this.#poisoned();
+    try {
+      return run(this.#exports);
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
+      this.#trapped = error;
+      throw this.#poisoned();
+    }
+  }
+
+  /** Calls a function that returns a status; throws its error. */
+  check(run: (exports: Exports) => number): void {
+    if (this.call(run) !== 0) throw this.#lastError();
+  }
+
+  /**
+   * Runs `body` with scratch memory that is released afterwards, whatever happens. `scratch.put(array)` copies an array in and
+   * returns its address; `scratch.reserve(bytes)` is uninitialised output space.
+   */
+  scope<T>(body: (scratch: Scratch) => T): T {
+    const scratch = new Scratch(this);
+    try {
+      return body(scratch);
+    } finally {
+      scratch.release();
+    }
+  }
+
+  #poisoned(): HandlebodyError {
+    return new HandlebodyError('wasm-trapped', {
+      message: 'The solver stopped unexpectedly and cannot be used any more.',
+      remedy: 'Call load() again for a fresh one, and please report what led here.',
+      cause: this.#trapped,
+    });
+  }
+
+  #lastError(): HandlebodyError {
+    const at = this.call((e) => e.hb_last_error()) >>> 0;
+    const layout = LAYOUT.hb_error;
+    const numbers = new Int32Array(this.#exports.memory.buffer, at, 3);
+    const [code = 1, kind = 0, index = -1] = numbers;
+    const text = (offset: number, end: number) => {
+      const bytes = new Uint8Array(this.#exports.memory.buffer, at + offset, end - offset);
+      return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+    };
+    const name = CULPRIT_KINDS[kind as keyof typeof CULPRIT_KINDS];
+    const culprit: Culprit | undefined = name === undefined || name === 'none' ? undefined : { kind: name, index };
+    return new HandlebodyError(ERROR_CODES[code as keyof typeof ERROR_CODES] ?? 'internal', {
+      message: text(layout.message, layout.remedy),
+      remedy: text(layout.remedy, layout.sizeof),
+      culprit,
+    });
+  }
+}
+
+/** Memory for the arguments of one call. */
+export class Scratch {
+  readonly #heap: Heap;
+  readonly #pointers: number[] = [];
+
+  constructor(heap: Heap) {
+    this.#heap = heap;
+  }
+
+  reserve(bytes: number): number {
+    const pointer = this.#heap.alloc(bytes);
+    this.#pointers.push(pointer);
+    return pointer;
+  }
+  putF64(values: NumberArray): number {
+    const pointer = this.reserve(values.length * 8);
+    this.#heap.f64(pointer, values.length).set(values);
+    return pointer;
+  }
+  putF32(values: NumberArray): number {
+    const pointer = this.reserve(values.length * 4);
+    this.#heap.f32(pointer, values.length).set(values);
+    return pointer;
+  }
+  putU32(values: NumberArray): number {
+    const pointer = this.reserve(values.length * 4);
+    this.#heap.u32(pointer, values.length).set(values);
+    return pointer;
+  }
+  putU16(values: NumberArray): number {
+    const pointer = this.reserve(values.length * 2);
+    this.#heap.u16(pointer, values.length).set(values);
+    return pointer;
+  }
+
+  release(): void {
+    for (const pointer of this.#pointers.splice(0)) this.#heap.free(pointer);
+  }
+}

@@ -1,0 +1,254 @@
+import { LAYOUT } from './abi.generated.ts';
+import { checkMeshArrays } from './bake.ts';
+import { HandlebodyError } from './errors.ts';
+import { hashPositions } from './hash.ts';
+import type { Heap } from './heap.ts';
+import type { BodyData, Handle, IrbfKernel, IrbfOptions, SolveOptions, SolveReport } from './types.ts';
+
+/** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, is 1e-6 here. */
+export const IRBF_DEFAULTS = {
+  kernel: 'inverse-multiquadric',
+  relativeWidth: 2,
+  smoothness: 1e-6,
+  anchorWeight: 100,
+  edgeExponent: -1,
+} as const;
+
+export const SOLVE_DEFAULTS = { maxIterations: 30, tolerance: 1e-5 } as const;
+
+const KERNELS: Record<IrbfKernel, number> = { gaussian: 3, 'inverse-multiquadric': 5, 'inverse-quadratic': 6 };
+
+/** Numbers a handle takes in `targets`: position xyz, quaternion xyzw, scale xyz. */
+const TARGET_SIZE = 10;
+
+/**
+ * The deformation of a baked body by handles (paper 001, §2 and appendix): set handles, write their `targets`, `solve`, `deform`.
+ *
+ * ```ts
+ * const irbf = hb.irbf(body);
+ * irbf.setHandles([{ vertex: 120 }, { at: [0, 0.5, 0] }]);
+ * irbf.targets.set([0.1, 0.6, 0], 0);
+ * irbf.solve();
+ * irbf.deform(positions, normals);
+ * ```
+ */
+export class Irbf {
+  readonly #heap: Heap;
+  readonly #body: BodyData;
+  readonly #positions: number;
+  readonly #normals: number;
+  readonly #restNormals: number;
+  readonly #report: number;
+  #irbf: number;
+  #handles = 0;
+  #targets = new Float64Array();
+  #hasRestNormals = false;
+
+  /** @internal Use `Handlebody.irbf`. */
+  constructor(heap: Heap, body: BodyData, options: IrbfOptions) {
+    const { kernel, relativeWidth, smoothness, anchorWeight, edgeExponent } = { ...IRBF_DEFAULTS, ...options };
+    const kernelNumber = KERNELS[kernel];
+    if (kernelNumber === undefined) {
+      throw new HandlebodyError('invalid-option', {
+        message: `IRBF has no kernel called "${kernel}".`,
+        remedy: `Use one of: ${Object.keys(KERNELS).join(', ')}.`,
+      });
+    }
+    checkBody(body);
+    this.#heap = heap;
+    this.#body = body;
+    this.#irbf = heap.scope((scratch) => {
+      const layout = LAYOUT.hb_body;
+      const at = scratch.reserve(layout.sizeof);
+      const arrays = {
+        positions: scratch.putF64(body.mesh.positions),
+        triangles: scratch.putU32(body.mesh.triangles),
+        voxels: scratch.putU32(body.voxels),
+        centers: scratch.putU32(body.centers),
+        distances: scratch.putU16(body.distances),
+        spheres: scratch.putF64(body.spheres),
+      };
+      const out = scratch.reserve(4);
+      heap.f64(at + layout.center, 3).set(body.normalization.center);
+      heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;
+      heap.f64(at + layout.origin, 3).set(body.grid.origin);
+      heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
+      heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
+      heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
+      const words = {
+        vertex_count: body.mesh.positions.length / 3,
+        triangle_count: body.mesh.triangles.length / 3,
+        voxel_count: body.voxels.length,
+        center_count: body.centers.length,
+        sphere_count: body.spheres.length / 4,
+        ...arrays,
+      };
+      for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
+      heap.check((e) => e.hb_irbf_create(at, kernelNumber, relativeWidth, smoothness, anchorWeight, edgeExponent, out));
+      return heap.u32(out, 1)[0] ?? 0;
+    });
+    // Taken once, so that a frame allocates nothing.
+    const bytes = body.mesh.positions.length * 4;
+    this.#positions = heap.alloc(bytes);
+    this.#normals = heap.alloc(bytes);
+    this.#restNormals = heap.alloc(bytes);
+    this.#report = heap.alloc(LAYOUT.hb_irbf_report.sizeof);
+  }
+
+  /** Vertices of the mesh, as stored. */
+  get vertexCount(): number {
+    return this.#body.mesh.positions.length / 3;
+  }
+
+  get handleCount(): number {
+    return this.#handles;
+  }
+
+  /**
+   * Where the handles are to go: 10 numbers a handle, position xyz in model units, quaternion xyzw, scale xyz. Write it in place,
+   * then `solve()`. A position handle reads the first three only. The array is replaced by `setHandles`, never otherwise.
+   */
+  get targets(): Float64Array {
+    return this.#targets;
+  }
+
+  /** Sets which points are held. Builds and factors the system; every target starts at rest. The former handles stay on failure. */
+  setHandles(handles: readonly Handle[]): void {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    const { positions } = this.#body.mesh;
+    const points = new Float64Array(handles.length * 3);
+    const kinds = new Uint32Array(handles.length);
+    handles.forEach((handle, i) => {
+      kinds[i] = handle.kind === 'rotation' ? 1 : 0;
+      if ('at' in handle) {
+        points.set(handle.at, i * 3);
+        return;
+      }
+      if (!Number.isInteger(handle.vertex) || handle.vertex < 0 || handle.vertex >= positions.length / 3) {
+        throw new HandlebodyError('handle-out-of-range', {
+          message: `Handle ${i} sits on vertex ${handle.vertex}, but the mesh has ${positions.length / 3} vertices.`,
+          remedy: `Use a vertex number from 0 to ${positions.length / 3 - 1}.`,
+          culprit: { kind: 'handle', index: i },
+        });
+      }
+      for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = positions[handle.vertex * 3 + axis] ?? 0;
+    });
+    heap.scope((scratch) => {
+      const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
+      heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length));
+    });
+    this.#handles = handles.length;
+    this.#targets = heap.f64(heap.call((e) => e.hb_irbf_targets(irbf)), handles.length * TARGET_SIZE).slice();
+  }
+
+  /** Local/global iterations from where the last call stopped. On bad targets it throws and the last solution stays. */
+  solve(options: SolveOptions = {}): SolveReport {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    const maxIterations = options.maxIterations ?? SOLVE_DEFAULTS.maxIterations;
+    const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
+    const targets = heap.call((e) => e.hb_irbf_targets(irbf));
+    heap.f64(targets, this.#targets.length).set(this.#targets);
+    heap.check((e) => e.hb_irbf_solve(irbf, maxIterations, tolerance, this.#report));
+    const layout = LAYOUT.hb_irbf_report;
+    const numbers = heap.f64(this.#report, 3);
+    const words = heap.u32(this.#report + layout.iterations, 2);
+    return {
+      energy: numbers[0] ?? 0,
+      anchorError: numbers[1] ?? 0,
+      change: numbers[2] ?? 0,
+      iterations: words[0] ?? 0,
+      converged: words[1] === 1,
+    };
+  }
+
+  /**
+   * Normals to start from in `deform`, n×3: authored ones keep their creases. Without them normals are area-weighted averages of the
+   * triangles around each welded vertex.
+   */
+  setRestNormals(normals: Float32Array): void {
+    this.#alive();
+    this.#checkLength('rest normals', normals.length);
+    this.#heap.f32(this.#restNormals, normals.length).set(normals);
+    this.#hasRestNormals = true;
+  }
+
+  /** Writes the deformed positions, and normals if asked, of all vertices as stored (n×3). Allocates nothing. */
+  deform(positions: Float32Array, normals?: Float32Array): void {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    this.#checkLength('positions', positions.length);
+    if (normals) this.#checkLength('normals', normals.length);
+    const rest = normals && this.#hasRestNormals ? this.#restNormals : 0;
+    heap.check((e) => e.hb_irbf_deform(irbf, this.#positions, rest, normals ? this.#normals : 0));
+    positions.set(heap.f32(this.#positions, positions.length));
+    normals?.set(heap.f32(this.#normals, normals.length));
+  }
+
+  /** The deformation at any points of space (k×3, model units), in double precision. */
+  evaluate(points: ArrayLike<number>, out: Float64Array = new Float64Array(points.length)): Float64Array {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    if (points.length % 3 !== 0 || out.length !== points.length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `evaluate() got ${points.length} numbers in and room for ${out.length} out.`,
+        remedy: 'Give x, y and z for every point, and as much room for the result.',
+      });
+    }
+    heap.scope((scratch) => {
+      const [from, to] = [scratch.putF64(points), scratch.reserve(points.length * 8)];
+      heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to));
+      out.set(heap.f64(to, out.length));
+    });
+    return out;
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
+  dispose(): void {
+    if (this.#irbf === 0) return;
+    const irbf = this.#irbf;
+    this.#irbf = 0;
+    this.#heap.call((e) => e.hb_irbf_free(irbf));
+    for (const pointer of [this.#positions, this.#normals, this.#restNormals, this.#report]) this.#heap.free(pointer);
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  #alive(): number {
+    if (this.#irbf !== 0) return this.#irbf;
+    throw new HandlebodyError('disposed', {
+      message: 'This deformation was disposed of and cannot be used any more.',
+      remedy: 'Make a new one with irbf(body).',
+    });
+  }
+
+  #checkLength(name: string, length: number): void {
+    const expected = this.#body.mesh.positions.length;
+    if (length === expected) return;
+    throw new HandlebodyError('invalid-shape', {
+      message: `The ${name} have ${length} numbers, the mesh has ${expected}.`,
+      remedy: 'Give x, y and z for every vertex of the baked mesh, in its order.',
+    });
+  }
+}
+
+/** Contradictions that must be found before the arrays are copied: lengths, and a mesh changed since baking. */
+function checkBody(body: BodyData): void {
+  checkMeshArrays(body.mesh);
+  const expected = body.centers.length * body.voxels.length;
+  if (body.distances.length !== expected || body.spheres.length % 4 !== 0) {
+    throw new HandlebodyError('body-invalid', {
+      message: `The baked body has ${body.distances.length} distances, but ${body.centers.length} centers × ${body.voxels.length} voxels need ${expected}.`,
+      remedy: 'Bake the model again.',
+    });
+  }
+  if (hashPositions(body.mesh.positions) !== body.positionsHash) {
+    throw new HandlebodyError('body-mismatch', {
+      message: 'The interior distances were baked for other vertex positions than this mesh has.',
+      remedy: 'Bake the model again after its last change: bake last.',
+    });
+  }
+}

@@ -1,0 +1,101 @@
+import type { Exports } from './abi.generated.ts';
+import { bake } from './bake.ts';
+import { HandlebodyError, throwIfAborted } from './errors.ts';
+import { Heap } from './heap.ts';
+import { Irbf } from './irbf.ts';
+import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
+
+const ABI_VERSION = 1;
+
+export interface LoadOptions {
+  /** The wasm to use instead of the one inside: compiled, as bytes, or where to fetch it. */
+  readonly wasm?: WebAssembly.Module | BufferSource | URL;
+  readonly signal?: AbortSignal;
+}
+
+/** A solver instance: one wasm module with its memory. Every object that it makes lives in that memory. */
+export class Handlebody {
+  readonly #heap: Heap;
+
+  /** @internal */
+  constructor(heap: Heap) {
+    this.#heap = heap;
+  }
+
+  /** Bytes of memory that the instance holds. */
+  get memory(): number {
+    return this.#heap.byteLength;
+  }
+
+  /** Computes the interior distances and spheres of a mesh, in small steps so that the thread stays responsive. */
+  bake(mesh: Mesh, options: BakeOptions = {}): Promise<BodyData> {
+    return bake(this.#heap, mesh, options);
+  }
+
+  /** Prepares a baked body for deformation by handles. */
+  irbf(body: BodyData, options: IrbfOptions = {}): Irbf {
+    return new Irbf(this.#heap, body, options);
+  }
+
+  /** Prepares examples in a pose space for interpolation. */
+  poseSpace(options: PoseSpaceOptions): PoseSpace {
+    return new PoseSpace(this.#heap, options);
+  }
+}
+
+/** Instantiates the solver from a module, bytes or a URL. The default entry and `handlebody/external` both end here. */
+export async function instantiate(source: WebAssembly.Module | BufferSource | URL, signal?: AbortSignal): Promise<Handlebody> {
+  throwIfAborted(signal);
+  if (typeof WebAssembly !== 'object') {
+    throw new HandlebodyError('wasm-unavailable', {
+      message: 'This browser does not offer WebAssembly, which the solver needs.',
+      remedy: 'Use a current browser, and allow WebAssembly if a setting or a security policy blocks it.',
+    });
+  }
+  let exports: Exports;
+  try {
+    const bytes = source instanceof URL ? await fetchBytes(source, signal) : source;
+    const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
+    const instance = await WebAssembly.instantiate(module, imports(module));
+    exports = instance.exports as unknown as Exports;
+    (instance.exports._initialize as (() => void) | undefined)?.();
+  } catch (cause) {
+    if (cause instanceof HandlebodyError) throw cause;
+    throwIfAborted(signal);
+    throw new HandlebodyError('wasm-unavailable', {
+      message: `The solver's WebAssembly could not be started: ${cause instanceof Error ? cause.message : String(cause)}`,
+      remedy: "Use a current browser; a content security policy needs 'wasm-unsafe-eval'. Check that the file is this version's own.",
+      cause,
+    });
+  }
+  throwIfAborted(signal);
+  const version = exports.hb_abi_version();
+  if (version !== ABI_VERSION) {
+    throw new HandlebodyError('wasm-unavailable', {
+      message: `The wasm file speaks interface version ${version}, this library ${ABI_VERSION}.`,
+      remedy: 'Serve the handlebody.wasm of the same release as the library.',
+    });
+  }
+  return new Handlebody(new Heap(exports));
+}
+
+/** A standalone module asks its host for next to nothing; whatever it names is answered with "not supported" (errno 52). */
+function imports(module: WebAssembly.Module): WebAssembly.Imports {
+  const answers: Record<string, Record<string, () => number>> = {};
+  for (const { module: space, name } of WebAssembly.Module.imports(module)) {
+    answers[space] ??= {};
+    answers[space][name] = name === 'emscripten_notify_memory_growth' ? () => 0 : () => 52;
+  }
+  return answers;
+}
+
+async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<BufferSource> {
+  if (url.protocol === 'file:') {
+    const { readFile } = await import(/* @vite-ignore */ 'node:fs/promises');
+    return new Uint8Array(await readFile(url));
+  }
+  const response = await fetch(url, signal ? { signal } : {});
+  if (!response.ok) throw new Error(`${url.href} answered ${response.status}`);
+  return response.arrayBuffer();
+}

@@ -1,0 +1,340 @@
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+
+/** `cardinal`: radial basis functions with a polynomial tail. `normalized`: gentler between examples, leaning to isolated ones. */
+export type PoseSpaceMethod = 'cardinal' | 'normalized';
+
+export type PoseSpaceKernel =
+  | 'linear'
+  | 'cubic'
+  | 'thin-plate'
+  | 'gaussian'
+  | 'multiquadric'
+  | 'inverse-multiquadric'
+  | 'inverse-quadratic';
+
+/** A shape and the place in the pose space where it belongs. */
+export interface PoseExample {
+  readonly name: string;
+  /** One coordinate a dimension. */
+  readonly at: ArrayLike<number>;
+  /** A row of numbers, as long as every other example's: displacements (3 a vertex), parameters of a rig, anything that blends. */
+  readonly shape: ArrayLike<number>;
+}
+
+export interface PoseSpaceOptions {
+  /** Names of the dimensions, 1 to 64. */
+  readonly dimensions: readonly string[];
+  readonly examples: readonly PoseExample[];
+  readonly method?: PoseSpaceMethod;
+  /** `'auto'`: multiquadric for cardinal, inverse-multiquadric for normalized. The normalized method takes no kernel that is 0 at r = 0. */
+  readonly kernel?: PoseSpaceKernel | 'auto';
+  /** In units of the dimensions. `'auto'`: for each example a fixed part of the distance to its nearest neighbor. */
+  readonly width?: number | 'auto';
+  /** Polynomial tail. 1 makes weights reproduce linear functions, Σ wₖ(x) xₖ = x. `'auto'`: the lowest that the kernel allows. */
+  readonly degree?: -1 | 0 | 1 | 'auto';
+}
+
+/**
+ * Chosen so that weights stay tame: on Russell's plane with 16 to 22 expressions within −0.32 … 1.15 between the examples and within
+ * −0.62 … 1.26 on the rest of the pad. The alternatives' numbers stand in `core/posespace/pose_space.hpp`.
+ */
+export const POSE_SPACE_DEFAULTS = { method: 'cardinal', kernel: 'auto', width: 'auto', degree: 'auto' } as const;
+
+const METHODS: Record<PoseSpaceMethod, number> = { cardinal: 0, normalized: 1 };
+const KERNELS: Record<PoseSpaceKernel, number> = {
+  linear: 0,
+  cubic: 1,
+  'thin-plate': 2,
+  gaussian: 3,
+  multiquadric: 4,
+  'inverse-multiquadric': 5,
+  'inverse-quadratic': 6,
+};
+const NEEDS_LINEAR_TAIL: readonly PoseSpaceKernel[] = ['cubic', 'thin-plate'];
+
+/** Places closer than this part of their bounding box's diagonal count as one: the solver's own rule. */
+const COINCIDENT = 1e-9;
+
+/**
+ * Examples in a pose space (2014 course, §2.2 and §3.4): at any point every example has a weight, 1 at its own place and 0 at the
+ * others', smooth in between and summing to 1 everywhere; the shape there is the weighted sum of the examples' shapes.
+ *
+ * ```ts
+ * const space = hb.poseSpace({
+ *   dimensions: ['valence', 'arousal'],
+ *   examples: [
+ *     { name: 'neutral', at: [0, 0], shape: neutral },
+ *     { name: 'happy', at: [0.83, 0.53], shape: happy },
+ *     { name: 'sad', at: [-0.65, -0.27], shape: sad },
+ *   ],
+ * });
+ * space.evaluate([0.4, 0.2], positions);
+ * ```
+ */
+export class PoseSpace {
+  /** Names of the examples, in the order of the weights. */
+  readonly names: readonly string[];
+  readonly dimensions: readonly string[];
+  /** Numbers in a shape. */
+  readonly shapeLength: number;
+  /** Examples left out because an earlier one has the same place and the same shape. */
+  readonly merged: readonly { readonly name: string; readonly into: string }[];
+
+  readonly #heap: Heap;
+  readonly #query: number;
+  readonly #weightsAt: number;
+  readonly #weights: Float64Array;
+  /** shapeLength × examples: all that one number of the result needs lies together. */
+  readonly #shapes: Float64Array;
+  #space: number;
+
+  /** @internal Use `Handlebody.poseSpace`. */
+  constructor(heap: Heap, options: PoseSpaceOptions) {
+    const { method, kernel, width, degree } = resolveOptions(options);
+    const { dimensions, examples } = options;
+    checkExamples(dimensions, examples);
+    const { kept, merged } = mergeDuplicates(examples, dimensions.length);
+    const count = kept.length;
+
+    this.dimensions = [...dimensions];
+    this.names = kept.map((index) => exampleAt(examples, index).name);
+    this.merged = merged;
+    this.shapeLength = examples[0]?.shape.length ?? 0;
+    this.#shapes = new Float64Array(this.shapeLength * count);
+    this.#weights = new Float64Array(count);
+    const places = new Float64Array(count * dimensions.length);
+    kept.forEach((index, k) => {
+      const { at, shape } = exampleAt(examples, index);
+      places.set(Array.from(at), k * dimensions.length);
+      for (let i = 0; i < shape.length; i++) this.#shapes[i * count + k] = shape[i] ?? 0;
+    });
+
+    this.#heap = heap;
+    this.#space = heap.scope((scratch) => {
+      const from = scratch.putF64(places);
+      const out = scratch.reserve(4);
+      try {
+        heap.check((e) => e.hb_pose_space_create(from, count, dimensions.length, method, kernel, width, degree, out));
+      } catch (error) {
+        throw nameCulprit(error, examples, kept);
+      }
+      return heap.u32(out, 1)[0] ?? 0;
+    });
+    // Taken once, so that a frame allocates nothing.
+    this.#query = heap.alloc(dimensions.length * 8);
+    this.#weightsAt = heap.alloc(count * 8);
+  }
+
+  /** The examples' weights at a point of the pose space, in the order of `names`. They sum to 1 and may be slightly negative. */
+  weights(at: ArrayLike<number>, out: Float64Array = new Float64Array(this.names.length)): Float64Array {
+    if (out.length !== this.names.length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `weights() got room for ${out.length} numbers; there are ${this.names.length} examples.`,
+        remedy: 'Give one number an example, or leave it out.',
+      });
+    }
+    this.#solve(at);
+    out.set(this.#weights);
+    return out;
+  }
+
+  /** The shape at a point of the pose space: the sum of the examples' shapes by their weights. */
+  evaluate(at: ArrayLike<number>): Float64Array;
+  evaluate<T extends Float32Array | Float64Array>(at: ArrayLike<number>, out: T): T;
+  evaluate(
+    at: ArrayLike<number>,
+    out: Float32Array | Float64Array = new Float64Array(this.shapeLength),
+  ): Float32Array | Float64Array {
+    if (out.length !== this.shapeLength) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `evaluate() got room for ${out.length} numbers; the shapes have ${this.shapeLength}.`,
+        remedy: "Give as many numbers as an example's shape has, or leave it out.",
+      });
+    }
+    this.#solve(at);
+    const weights = this.#weights;
+    const shapes = this.#shapes;
+    const count = weights.length;
+    for (let i = 0, s = 0; i < out.length; i++) {
+      let sum = 0;
+      for (let k = 0; k < count; k++, s++) sum += (weights[k] as number) * (shapes[s] as number);
+      out[i] = sum;
+    }
+    return out;
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
+  dispose(): void {
+    if (this.#space === 0) return;
+    const space = this.#space;
+    this.#space = 0;
+    this.#heap.call((e) => e.hb_pose_space_free(space));
+    this.#heap.free(this.#query);
+    this.#heap.free(this.#weightsAt);
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  /** Brings the weights at `at` into `#weights`. */
+  #solve(at: ArrayLike<number>): void {
+    const space = this.#space;
+    if (space === 0) {
+      throw new HandlebodyError('disposed', {
+        message: 'This pose space was disposed of and cannot be used any more.',
+        remedy: 'Make a new one with poseSpace(options).',
+      });
+    }
+    if (at.length !== this.dimensions.length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `The point has ${at.length} coordinates; the pose space has ${this.dimensions.length} (${this.dimensions.join(', ')}).`,
+        remedy: 'Give one coordinate a dimension.',
+      });
+    }
+    this.#heap.f64(this.#query, at.length).set(at);
+    this.#heap.check((e) => e.hb_pose_space_weights(space, this.#query, this.#weightsAt));
+    this.#weights.set(this.#heap.f64(this.#weightsAt, this.#weights.length));
+  }
+}
+
+/** The options as the solver's numbers. */
+function resolveOptions(options: PoseSpaceOptions): { method: number; kernel: number; width: number; degree: number } {
+  const { method, kernel, width, degree } = { ...POSE_SPACE_DEFAULTS, ...options };
+  if (!Object.hasOwn(METHODS, method)) throw unknownOption('method', method, Object.keys(METHODS));
+  const chosen = kernel !== 'auto' ? kernel : method === 'cardinal' ? 'multiquadric' : 'inverse-multiquadric';
+  if (!Object.hasOwn(KERNELS, chosen)) throw unknownOption('kernel', chosen, Object.keys(KERNELS));
+  // The solver reads 0 as "automatic", which nobody who writes 0 means.
+  if (width !== 'auto' && !(typeof width === 'number' && width > 0 && width < Number.POSITIVE_INFINITY)) {
+    throw new HandlebodyError('invalid-option', {
+      message: `The width ${width} is not a positive finite number.`,
+      remedy: "Give it in units of the dimensions, or 'auto' to have it chosen.",
+      culprit: { kind: 'option', index: -1 },
+    });
+  }
+  if (degree !== 'auto' && !(degree === -1 || degree === 0 || degree === 1)) throw unknownOption('degree', degree, ['0', '1']);
+  const lowest = method === 'normalized' ? -1 : NEEDS_LINEAR_TAIL.includes(chosen) ? 1 : 0;
+  return {
+    method: METHODS[method],
+    kernel: KERNELS[chosen],
+    width: width === 'auto' ? 0 : width,
+    degree: degree === 'auto' ? lowest : degree,
+  };
+}
+
+function unknownOption(option: string, value: unknown, known: readonly string[]): HandlebodyError {
+  return new HandlebodyError('invalid-option', {
+    message: `A pose space has no ${option} called "${value}".`,
+    remedy: `Use one of: ${known.join(', ')}.`,
+    culprit: { kind: 'option', index: -1 },
+  });
+}
+
+function checkExamples(dimensions: readonly string[], examples: readonly PoseExample[]): void {
+  if (dimensions.length === 0) {
+    throw new HandlebodyError('invalid-shape', {
+      message: 'The pose space has no dimensions.',
+      remedy: "Name at least one, such as ['valence', 'arousal'].",
+    });
+  }
+  const first = examples[0];
+  if (!first) {
+    throw new HandlebodyError('examples-too-few', {
+      message: 'The pose space has no examples.',
+      remedy: 'Give one or more, each with a name, a place and a shape.',
+    });
+  }
+  examples.forEach(({ name, at, shape }, index) => {
+    const culprit = { kind: 'example', index } as const;
+    if (at.length !== dimensions.length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `The place of "${name}" has ${at.length} coordinates; the pose space has ${dimensions.length} (${dimensions.join(', ')}).`,
+        remedy: 'Give one coordinate a dimension.',
+        culprit,
+      });
+    }
+    if (shape.length !== first.shape.length) {
+      throw new HandlebodyError('example-shape-mismatch', {
+        message: `The shape of "${name}" has ${shape.length} numbers, that of "${first.name}" ${first.shape.length}.`,
+        remedy: 'Give every example a shape of the same length, in the same order.',
+        culprit,
+      });
+    }
+    for (const [what, row] of [['place', at] as const, ['shape', shape] as const]) {
+      const bad = firstNotFinite(row);
+      if (bad === -1) continue;
+      throw new HandlebodyError('example-not-finite', {
+        message: `Number ${bad} of the ${what} of "${name}" is ${row[bad]}.`,
+        remedy: 'Remove NaN and infinite numbers.',
+        culprit,
+      });
+    }
+  });
+}
+
+function firstNotFinite(row: ArrayLike<number>): number {
+  for (let i = 0; i < row.length; i++) if (!Number.isFinite(row[i])) return i;
+  return -1;
+}
+
+/** Which examples to keep: of several at one place the first, if their shapes are equal; it is an error otherwise. */
+function mergeDuplicates(examples: readonly PoseExample[], dimension: number) {
+  const tolerance = COINCIDENT * diagonal(examples, dimension);
+  const kept: number[] = [];
+  const merged: { name: string; into: string }[] = [];
+  examples.forEach((example, index) => {
+    const twin = kept.find((other) => distance(example.at, exampleAt(examples, other).at) <= tolerance);
+    if (twin === undefined) {
+      kept.push(index);
+      return;
+    }
+    const earlier = exampleAt(examples, twin);
+    if (!equal(example.shape, earlier.shape)) {
+      throw new HandlebodyError('example-duplicate', {
+        message: `"${example.name}" is at the same place as "${earlier.name}" but has another shape.`,
+        remedy: 'Move one of the two, or remove it.',
+        culprit: { kind: 'example', index },
+      });
+    }
+    merged.push({ name: example.name, into: earlier.name });
+  });
+  return { kept, merged };
+}
+
+function diagonal(examples: readonly PoseExample[], dimension: number): number {
+  const extents = Array.from({ length: dimension }, (_, axis) => {
+    const coordinates = examples.map(({ at }) => at[axis] ?? 0);
+    // No spread into Math.max: it overflows the stack for long lists.
+    return coordinates.reduce((a, b) => Math.max(a, b)) - coordinates.reduce((a, b) => Math.min(a, b));
+  });
+  return Math.hypot(...extents);
+}
+
+function distance(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  let sum = 0;
+  for (let i = 0; i < a.length; i++) sum = Math.hypot(sum, (a[i] ?? 0) - (b[i] ?? 0));
+  return sum;
+}
+
+function equal(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+  return true;
+}
+
+function exampleAt(examples: readonly PoseExample[], index: number): PoseExample {
+  return examples[index] as PoseExample;
+}
+
+/** The solver counts only what it was given: says the culprit in the caller's numbers, and by name. */
+function nameCulprit(error: unknown, examples: readonly PoseExample[], kept: readonly number[]): unknown {
+  if (!(error instanceof HandlebodyError) || error.culprit?.kind !== 'example') return error;
+  const index = kept[error.culprit.index];
+  if (index === undefined) return error;
+  return new HandlebodyError(error.code, {
+    message: `At example "${exampleAt(examples, index).name}": ${error.message}`,
+    remedy: error.remedy,
+    culprit: { kind: 'example', index },
+    cause: error,
+  });
+}

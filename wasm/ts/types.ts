@@ -1,0 +1,84 @@
+/** The plain data that crosses the library's boundaries: no classes, all of it can be posted between threads. */
+
+/** A triangle mesh in scene space, Y up. `positions` n×3; `triangles` m×3 indices, counter-clockwise seen from outside. */
+export interface Mesh {
+  readonly positions: Float32Array | Float64Array;
+  readonly triangles: Uint16Array | Uint32Array;
+}
+
+/**
+ * A mesh with its interior distances and spheres, as {@link bake} makes it and a baked GLB carries it. Lengths from `grid` on are in
+ * solver space: (position − normalization.center) / normalization.diagonal.
+ */
+export interface BodyData {
+  readonly version: 0;
+  readonly mesh: Mesh;
+  /** Hash of the positions that the distances were computed for; see `hashPositions`. */
+  readonly positionsHash: string;
+  readonly normalization: { readonly center: readonly [number, number, number]; readonly diagonal: number };
+  readonly grid: {
+    /** Center of voxel (0, 0, 0). */
+    readonly origin: readonly [number, number, number];
+    readonly spacing: number;
+    readonly dimensions: readonly [number, number, number];
+  };
+  /** Linear indices i + nx·(j + ny·k) of the inside voxels, ascending. */
+  readonly voxels: Uint32Array;
+  /** Vertex numbers of the IRBF centers. */
+  readonly centers: Uint32Array;
+  /** centers × voxels codes; the interior distance is code × distanceScale. */
+  readonly distances: Uint16Array;
+  readonly distanceScale: number;
+  /** spheres × 4: center xyz, radius. */
+  readonly spheres: Float64Array;
+}
+
+export type DistanceMethod = 'fast-marching' | 'euclidean';
+
+export interface BakeOptions {
+  /** How many IRBF centers to sample, farthest first. */
+  readonly centers?: number;
+  readonly distance?: DistanceMethod;
+  /** Voxels along the longest side of the bounding box. */
+  readonly resolution?: number;
+  /** Most spheres to fill the volume with. */
+  readonly spheres?: number;
+  readonly signal?: AbortSignal;
+  /** Called with the part done, 0 to 1. */
+  readonly onProgress?: (part: number) => void;
+}
+
+export type Vec3 = readonly [number, number, number];
+
+/** Where a handle sits (a vertex, or any point inside) and what it sets: its position, or its rotation and scale as well. */
+export type Handle = ({ readonly vertex: number } | { readonly at: Vec3 }) & { readonly kind?: 'position' | 'rotation' };
+
+export interface IrbfOptions {
+  readonly kernel?: IrbfKernel;
+  /** The kernel's width h, in mean spacings of the centers. */
+  readonly relativeWidth?: number;
+  /** λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. */
+  readonly smoothness?: number;
+  /** μ: how much an anchor counts beside a sphere's edge. */
+  readonly anchorWeight?: number;
+  /** α of eq. (8), the exponent of the edge length in a sphere's weight: −1 lets small spheres count as much as large ones. */
+  readonly edgeExponent?: number;
+}
+
+export type IrbfKernel = 'inverse-multiquadric' | 'gaussian' | 'inverse-quadratic';
+
+export interface SolveOptions {
+  readonly maxIterations?: number;
+  /** Stop when no sphere edge moves more than this part of the model's diagonal in one iteration. */
+  readonly tolerance?: number;
+}
+
+export interface SolveReport {
+  /** Eq. (10) in solver space. */
+  readonly energy: number;
+  /** Largest distance between a handle's image and its target, model units. */
+  readonly anchorError: number;
+  readonly change: number;
+  readonly iterations: number;
+  readonly converged: boolean;
+}

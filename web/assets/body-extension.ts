@@ -1,0 +1,117 @@
+/**
+ * The glTF extension HANDLEBODY_body, on the root of a file: the baked interior of the default scene. In JSON, format version 0:
+ *
+ *   "extensions": { "HANDLEBODY_body": {
+ *     "version": 0,
+ *     "positionsHash": "0123456789abcdef",
+ *     "normalization": { "center": [x, y, z], "diagonal": d },
+ *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
+ *     "distanceScale": s,
+ *     "voxels": accessor, "centers": accessor,   unsigned int SCALAR
+ *     "distances": accessor,                     unsigned short SCALAR, centers × voxels
+ *     "spheres": accessor                        float VEC4: center xyz, radius
+ *   } }
+ *
+ * Solver space is scene space after node transforms, scaled to a unit diagonal; vertices are numbered through the triangle primitives of
+ * the default scene in order. The extension is optional: viewers that do not know it show the model as it is.
+ */
+import {
+  type Accessor,
+  Extension,
+  ExtensionProperty,
+  type Nullable,
+  PropertyType,
+  type ReaderContext,
+  WriterContext,
+} from '@gltf-transform/core';
+import { BODY_ACCESSORS, HANDLEBODY_BODY } from './schema.ts';
+
+interface IBodyProperty {
+  name: string;
+  extras: Record<string, unknown>;
+  header: Record<string, unknown>;
+  voxels: Accessor;
+  centers: Accessor;
+  distances: Accessor;
+  spheres: Accessor;
+}
+
+export type BodyAccessorName = keyof typeof BODY_ACCESSORS;
+
+const NAMES = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];
+
+/** A baked body in a glTF-Transform document. Use `attachBody` and `readBody`, which check what they handle. */
+export class BodyProperty extends ExtensionProperty<IBodyProperty> {
+  static override readonly EXTENSION_NAME = HANDLEBODY_BODY;
+  declare readonly extensionName: typeof HANDLEBODY_BODY;
+  declare readonly propertyType: 'HandlebodyBody';
+  declare readonly parentTypes: [PropertyType.ROOT];
+
+  protected override init(): void {
+    Object.assign(this, { extensionName: HANDLEBODY_BODY, propertyType: 'HandlebodyBody', parentTypes: [PropertyType.ROOT] });
+  }
+
+  protected override getDefaults(): Nullable<IBodyProperty> {
+    return Object.assign(super.getDefaults(), { header: {}, voxels: null, centers: null, distances: null, spheres: null });
+  }
+
+  /** All but the accessors, as the JSON has it: not yet checked, see `parseBodyHeader`. */
+  getHeader(): Record<string, unknown> {
+    return this.get('header');
+  }
+
+  setHeader(header: object): this {
+    return this.set('header', { ...header });
+  }
+
+  getAccessor(name: BodyAccessorName): Accessor | null {
+    return this.getRef(name);
+  }
+
+  setAccessor(name: BodyAccessorName, accessor: Accessor | null): this {
+    return this.setRef(name, accessor, { usage: WriterContext.BufferViewUsage.OTHER });
+  }
+}
+
+/**
+ * Lets glTF-Transform read and write baked bodies.
+ *
+ * ```ts
+ * const io = new NodeIO().registerExtensions([BodyExtension, PoseSpaceExtension]);
+ * ```
+ */
+export class BodyExtension extends Extension {
+  static override readonly EXTENSION_NAME = HANDLEBODY_BODY;
+  override readonly extensionName = HANDLEBODY_BODY;
+
+  createBody(): BodyProperty {
+    return new BodyProperty(this.document.getGraph());
+  }
+
+  /** Takes what is there, so that a damaged body does not keep the model from opening; `readBody` checks it. */
+  override read(context: ReaderContext): this {
+    const json = (context.jsonDoc.json.extensions as Record<string, unknown> | undefined)?.[HANDLEBODY_BODY];
+    if (typeof json !== 'object' || json === null) return this;
+    const header: Record<string, unknown> = { ...json };
+    const body = this.createBody();
+    for (const name of NAMES) {
+      body.setAccessor(name, context.accessors[header[name] as number] ?? null);
+      delete header[name];
+    }
+    this.document.getRoot().setExtension(HANDLEBODY_BODY, body.setHeader(header));
+    return this;
+  }
+
+  override write(context: WriterContext): this {
+    const body = this.document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
+    if (!body) return this;
+    const json = body.getHeader();
+    const accessors = NAMES.map((name) => {
+      const accessor = body.getAccessor(name);
+      return [name, accessor ? context.accessorIndexMap.get(accessor) : undefined];
+    });
+    const root = context.jsonDoc.json;
+    root.extensions = { ...root.extensions, [HANDLEBODY_BODY]: { ...json, ...Object.fromEntries(accessors) } };
+    return this;
+  }
+}

@@ -1,0 +1,84 @@
+/** The scene part of a glTF's JSON: references of nodes, scenes, skins and animations, and that nodes form a forest. */
+import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
+
+/** Deeper trees overflow the stack of readers that recurse; real ones have some tens of levels. */
+const MAX_DEPTH = 512;
+
+const TRANSFORMS = { translation: 3, rotation: 4, scale: 3, matrix: 16 };
+
+/** @internal Part of `checkGltf`. */
+export function checkNodes({
+  lists,
+  scene,
+  index,
+  fail,
+}: {
+  lists: Record<string, GltfJson[]>;
+  scene: unknown;
+  index: CheckIndex;
+  fail: (what: string) => never;
+}): void {
+  const nodes = lists.nodes ?? [];
+  const size = (name: string) => lists[name]?.length ?? 0;
+  const optional = (owner: GltfJson, key: string, end: number, path: string) => {
+    if (owner[key] !== undefined) index(owner[key], end, `the ${key} of ${path}`);
+  };
+  const indices = (owner: GltfJson, key: string, end: number, path: string): number[] => {
+    const value = owner[key] ?? [];
+    return Array.isArray(value)
+      ? value.map((n) => index(n, end, `a member of the ${key} of ${path}`))
+      : fail(`the ${key} of ${path} are no list`);
+  };
+
+  const parents = new Int32Array(nodes.length).fill(-1);
+  const children = nodes.map((node, i) => {
+    const path = `node ${i}`;
+    for (const [key, length] of Object.entries(TRANSFORMS)) {
+      const value = node[key];
+      if (value === undefined) continue;
+      if (!Array.isArray(value) || value.length !== length || !value.every(Number.isFinite))
+        fail(`the ${key} of ${path} is not ${length} numbers`);
+    }
+    optional(node, 'mesh', size('meshes'), path);
+    optional(node, 'skin', size('skins'), path);
+    optional(node, 'camera', size('cameras'), path);
+    const below = indices(node, 'children', nodes.length, path);
+    for (const child of below) {
+      if (parents[child] !== -1) fail(`node ${child} hangs below two nodes`);
+      parents[child] = i;
+    }
+    return below;
+  });
+
+  // With one parent at most, nodes that no root reaches run in a circle.
+  let reached = 0;
+  let level = nodes.flatMap((_, i) => (parents[i] === -1 ? [i] : []));
+  for (let depth = 0; level.length > 0; depth++) {
+    if (depth > MAX_DEPTH) fail(`its nodes are nested more than ${MAX_DEPTH} deep`);
+    reached += level.length;
+    level = level.flatMap((i) => children[i] as number[]);
+  }
+  if (reached < nodes.length) fail('its nodes hang below each other in a circle');
+
+  optional({ scene }, 'scene', size('scenes'), 'the file');
+  for (const [i, entry] of (lists.scenes ?? []).entries()) {
+    const roots = indices(entry, 'nodes', nodes.length, `scene ${i}`);
+    for (const root of roots) if (parents[root] !== -1) fail(`scene ${i} lists node ${root}, which hangs below another node`);
+    if (new Set(roots).size < roots.length) fail(`scene ${i} lists a node twice`);
+  }
+  for (const [i, skin] of (lists.skins ?? []).entries()) {
+    indices(skin, 'joints', nodes.length, `skin ${i}`);
+    optional(skin, 'inverseBindMatrices', size('accessors'), `skin ${i}`);
+    optional(skin, 'skeleton', nodes.length, `skin ${i}`);
+  }
+  for (const [i, image] of (lists.images ?? []).entries()) optional(image, 'bufferView', size('bufferViews'), `image ${i}`);
+  for (const [i, animation] of (lists.animations ?? []).entries()) {
+    const samplers = Array.isArray(animation.samplers) ? animation.samplers : fail(`animation ${i} has no samplers`);
+    for (const entry of samplers) {
+      const sampler: GltfJson = isObject(entry) ? entry : fail(`animation ${i} has a damaged sampler`);
+      index(sampler.input, size('accessors'), `a sampler's input of animation ${i}`);
+      index(sampler.output, size('accessors'), `a sampler's output of animation ${i}`);
+    }
+    if (!Array.isArray(animation.channels)) fail(`animation ${i} has no channels`);
+  }
+}

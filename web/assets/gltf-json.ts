@@ -1,0 +1,9 @@
+/** An object of a glTF's JSON, of which nothing is known yet. */
+export type GltfJson = Record<string, unknown>;
+
+/** Asks that the number at `path` be a whole one from 0 to below `end`, and returns it. */
+export type CheckIndex = (value: unknown, end: number, path: string) => number;
+
+export function isObject(value: unknown): value is GltfJson {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}

@@ -1,0 +1,48 @@
+import type { Document, Mesh } from '@gltf-transform/core';
+import { PoseSpaceExtension, type PoseSpaceProperty } from './pose-space-extension.ts';
+import { HANDLEBODY_POSE_SPACE, type PoseSpaceData, parsePoseSpace } from './schema.ts';
+
+/**
+ * Gives a mesh a pose space, in place of one that it has.
+ *
+ * Throws 'file-invalid', 'example-shape-mismatch' or 'example-not-finite' when it does not fit the mesh.
+ *
+ * ```ts
+ * attachPoseSpace(document, face, {
+ *   version: 0,
+ *   dimensions: [{ name: 'valence', min: -1, max: 1 }],
+ *   examples: [{ name: 'happy', at: [0.8], weights: [1, 0] }],
+ * });
+ * ```
+ */
+export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceData): PoseSpaceProperty {
+  const checked = parsePoseSpace(poseSpace, { targetCount: morphTargetCount(mesh) });
+  mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE)?.dispose();
+  const property = document.createExtension(PoseSpaceExtension).createPoseSpace().setDefinition(checked);
+  mesh.setExtension(HANDLEBODY_POSE_SPACE, property);
+  return property;
+}
+
+/**
+ * Every pose space of a document, with the mesh that it is for.
+ *
+ * Throws 'file-unsupported', 'file-invalid', 'example-shape-mismatch' or 'example-not-finite'.
+ *
+ * ```ts
+ * for (const { mesh, dimensions } of readPoseSpaces(document)) console.log(mesh.getName(), dimensions);
+ * ```
+ */
+export function readPoseSpaces(document: Document): (PoseSpaceData & { mesh: Mesh })[] {
+  return document
+    .getRoot()
+    .listMeshes()
+    .flatMap((mesh) => {
+      const property = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);
+      if (!property) return [];
+      return [{ mesh, ...parsePoseSpace(property.getDefinition(), { targetCount: morphTargetCount(mesh) }) }];
+    });
+}
+
+function morphTargetCount(mesh: Mesh): number {
+  return mesh.listPrimitives()[0]?.listTargets().length ?? 0;
+}

@@ -1,0 +1,107 @@
+import { Vector3 } from 'three';
+import type { BodyData, Handle, Handlebody, Irbf } from '../../wasm/ts/index.ts';
+
+/** Numbers a handle has in the solver's targets: position, quaternion, scale. */
+const TARGET = 10;
+
+/** A handle of the studio's. */
+export interface Point {
+  readonly name: string;
+  readonly handle: Handle;
+  /** Where it is at rest, model units. */
+  readonly rest: Vector3;
+  /** Added by the user, who may take it away again. */
+  readonly removable: boolean;
+}
+
+/** What one round of solving did, times in milliseconds. */
+export interface Round {
+  readonly iterations: number;
+  readonly solve: number;
+  readonly deform: number;
+  /** Largest distance of a handle from its target, as a part of the model's diagonal. */
+  readonly error: number;
+  readonly converged: boolean;
+}
+
+/** A body under deformation. Handles or targets that the solver refuses leave it as it was. */
+export class LiveBody {
+  readonly data: BodyData;
+  readonly positions: Float32Array;
+  readonly normals: Float32Array;
+  readonly #irbf: Irbf;
+  #handles: readonly Handle[] = [];
+  /** Targets of the last solution. */
+  #good = new Float64Array();
+
+  constructor(solver: Handlebody, data: BodyData, restNormals: Float32Array | undefined) {
+    this.data = data;
+    this.positions = new Float32Array(data.mesh.positions);
+    this.normals = new Float32Array(data.mesh.positions.length);
+    this.#irbf = solver.irbf(data);
+    if (restNormals) this.#irbf.setRestNormals(restNormals);
+  }
+
+  /** Where a handle is at rest, model units. */
+  rest(handle: Handle): Vector3 {
+    if ('at' in handle) return new Vector3(...handle.at);
+    return new Vector3().fromArray(this.data.mesh.positions, handle.vertex * 3);
+  }
+
+  /** Where a vertex is now. */
+  vertex(index: number, out = new Vector3()): Vector3 {
+    return out.fromArray(this.positions, index * 3);
+  }
+
+  /** Where handle `i` is to go. */
+  target(i: number, out = new Vector3()): Vector3 {
+    return out.fromArray(this.#irbf.targets, i * TARGET);
+  }
+
+  setTarget(i: number, position: Vector3): void {
+    position.toArray(this.#irbf.targets, i * TARGET);
+  }
+
+  /** Replaces the handles and tries their targets. */
+  hold(handles: readonly Handle[], targets: readonly Vector3[]): void {
+    this.#irbf.setHandles(handles);
+    try {
+      for (const [i, target] of targets.entries()) this.setTarget(i, target);
+      this.#irbf.solve({ maxIterations: 1 });
+    } catch (error) {
+      if (this.#handles.length > 0) {
+        this.#irbf.setHandles(this.#handles);
+        this.#irbf.targets.set(this.#good);
+        this.#irbf.solve({ maxIterations: 1 });
+      }
+      throw error;
+    }
+    this.#handles = handles;
+    this.#good = this.#irbf.targets.slice();
+  }
+
+  /** A few iterations, then the new shape into `positions` and `normals`. When the targets are refused they go back to the last good. */
+  advance(maxIterations: number): Round {
+    const started = performance.now();
+    try {
+      const report = this.#irbf.solve({ maxIterations });
+      const solved = performance.now();
+      this.#irbf.deform(this.positions, this.normals);
+      this.#good.set(this.#irbf.targets);
+      return {
+        iterations: report.iterations,
+        solve: solved - started,
+        deform: performance.now() - solved,
+        error: report.anchorError / this.data.normalization.diagonal,
+        converged: report.converged,
+      };
+    } catch (error) {
+      this.#irbf.targets.set(this.#good);
+      throw error;
+    }
+  }
+
+  dispose(): void {
+    this.#irbf.dispose();
+  }
+}

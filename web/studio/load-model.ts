@@ -1,0 +1,41 @@
+import type { Object3D } from 'three';
+import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { BodyData } from '../../wasm/ts/types.ts';
+import { checkGlb } from '../assets/check-glb.ts';
+import { handlebodyData, handlebodyPlugin } from '../three/loader.ts';
+import type { PoseSpaceSource } from './pose-source.ts';
+
+/** What a GLB brings: an object, and maybe what was baked into it. */
+export interface LoadedModel {
+  readonly object: Object3D;
+  readonly body: BodyData | undefined;
+  readonly space: PoseSpaceSource | undefined;
+}
+
+/** Checks a GLB and makes three.js objects of it. */
+export async function loadModel(buffer: ArrayBuffer): Promise<LoadedModel> {
+  checkGlb(new Uint8Array(buffer));
+  const loader = new GLTFLoader();
+  loader.register(handlebodyPlugin);
+  try {
+    const gltf = await loader.parseAsync(buffer, '');
+    const { body, poseSpaces } = handlebodyData(gltf);
+    const [space] = poseSpaces;
+    return {
+      object: gltf.scene,
+      body,
+      space: space && {
+        dimensions: space.dimensions.map(({ name }) => name),
+        examples: space.examples.map(({ name, at, weights }) => ({ name, at, shape: weights })),
+      },
+    };
+  } catch (cause) {
+    if (cause instanceof HandlebodyError) throw cause;
+    throw new HandlebodyError('file-invalid', {
+      message: `The GLB could not be read: ${cause instanceof Error ? cause.message : String(cause)}`,
+      remedy: 'Export the model again; a glTF validator says more.',
+      cause,
+    });
+  }
+}

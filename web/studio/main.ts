@@ -1,0 +1,42 @@
+import { load } from '../../wasm/ts/index.ts';
+import { cameraTools, freeTheWheel } from './camera-tools.ts';
+import { byId } from './dom.ts';
+import { listenForFiles } from './drop.ts';
+import { Messages } from './messages.ts';
+import { ModelSwitch } from './model-switch.ts';
+import { Note } from './note.ts';
+import { Progress } from './progress.ts';
+import { Studio } from './studio.ts';
+import { View } from './view.ts';
+
+const viewport = byId('viewport');
+const messages = new Messages(byId('messages'), () => viewport);
+const progress = new Progress(byId('progress'));
+const note = new Note(byId('note'));
+
+function start(): void {
+  freeTheWheel(viewport);
+  const view = new View(byId<HTMLCanvasElement>('canvas'), viewport);
+  viewport.after(cameraTools(view, viewport));
+  view.onLost = (lost) => {
+    if (lost) note.show('The graphics were interrupted. They come back by themselves.');
+    else note.hide();
+  };
+  // Asked for now, awaited when a model is there: both come at the same time.
+  const solver = load();
+  solver.catch(() => {});
+  const studio = new Studio({ view, solver, messages, progress, note });
+  const models = new ModelSwitch((id) => void studio.choose(id));
+  studio.modelSwitch = models;
+  listenForFiles((file) => void studio.open(file));
+  models.show(models.fromAddress());
+  void studio.choose(models.fromAddress());
+}
+
+try {
+  start();
+} catch (error) {
+  byId('studio').dataset.state = 'failed';
+  progress.end();
+  messages.showInstead(error);
+}

@@ -1,0 +1,114 @@
+import type { Mesh, Object3D } from 'three';
+import type { Handlebody, PoseSpace } from '../../wasm/ts/index.ts';
+import { reducedMotion } from './motion.ts';
+import { PosePanel } from './pose-panel.ts';
+import type { PoseSpaceSource } from './pose-source.ts';
+import type { StudioScene } from './scene.ts';
+import type { View } from './view.ts';
+
+export interface PoseSceneOptions {
+  readonly view: View;
+  readonly solver: Handlebody;
+  readonly object: Object3D;
+  readonly space: PoseSpaceSource;
+  readonly title: string;
+  readonly onError: (error: unknown) => void;
+  readonly onGood: () => void;
+}
+
+/** Seconds in which a face covers about two thirds of the way to where the puck is. */
+const EASE_SECONDS = 0.09;
+
+/** A model with morph targets that a place in a plane of feelings drives. */
+export class PoseScene implements StudioScene {
+  readonly kind = 'pose';
+  readonly object: Object3D;
+  readonly grounded = false;
+  readonly #options: PoseSceneOptions;
+  readonly #space: PoseSpace;
+  readonly #meshes: Mesh[] = [];
+  readonly #panel: PosePanel;
+  readonly #weights: Float64Array;
+  readonly #shape: Float64Array;
+  readonly #to: [number, number] = [0, 0];
+  readonly #at: [number, number] = [0, 0];
+  readonly #step = (seconds: number) => this.#ease(seconds);
+
+  constructor(options: PoseSceneOptions) {
+    this.#options = options;
+    this.object = options.object;
+    const { dimensions, examples } = options.space;
+    this.#space = options.solver.poseSpace({
+      dimensions: [...dimensions],
+      examples: examples.map(({ name, at, shape }) => ({ name, at: [...at], shape })),
+    });
+    this.#weights = new Float64Array(examples.length);
+    this.#shape = new Float64Array(examples[0]?.shape.length ?? 0);
+    options.object.traverse((part) => {
+      const mesh = part as Mesh;
+      if (mesh.isMesh && mesh.morphTargetInfluences) this.#meshes.push(mesh);
+    });
+    this.#panel = new PosePanel(
+      options.title,
+      options.space,
+      (x, y) => this.moveTo(x, y),
+      () => this.reset(),
+    );
+    this.#show();
+  }
+
+  get panel(): HTMLElement {
+    return this.#panel.element;
+  }
+
+  moveTo(x: number, y: number): void {
+    this.#to[0] = x;
+    this.#to[1] = y;
+    this.#options.onGood();
+    this.#panel.place(x, y);
+    if (reducedMotion()) {
+      this.#at[0] = x;
+      this.#at[1] = y;
+      this.#show();
+    } else {
+      this.#options.view.animate(this.#step);
+    }
+  }
+
+  reset(): void {
+    this.moveTo(0, 0);
+  }
+
+  drawn(): void {}
+
+  dispose(): void {
+    this.#options.view.stop(this.#step);
+    this.#space.dispose();
+  }
+
+  #ease(seconds: number): boolean {
+    const part = 1 - Math.exp(-seconds / EASE_SECONDS);
+    const [dx, dy] = [this.#to[0] - this.#at[0], this.#to[1] - this.#at[1]];
+    const arrived = Math.hypot(dx, dy) < 1e-3;
+    this.#at[0] = arrived ? this.#to[0] : this.#at[0] + dx * part;
+    this.#at[1] = arrived ? this.#to[1] : this.#at[1] + dy * part;
+    return this.#show() && !arrived;
+  }
+
+  /** The face at the present place. False when the solver refused. */
+  #show(): boolean {
+    try {
+      this.#space.weights(this.#at, this.#weights);
+      this.#space.evaluate(this.#at, this.#shape);
+    } catch (error) {
+      this.#options.onError(error);
+      return false;
+    }
+    for (const { morphTargetInfluences } of this.#meshes) {
+      for (let i = 0; i < (morphTargetInfluences?.length ?? 0); i++) (morphTargetInfluences as number[])[i] = this.#shape[i] ?? 0;
+    }
+    this.#panel.weigh(this.#weights);
+    this.#options.view.changed();
+    return true;
+  }
+}

@@ -1,0 +1,15 @@
+import type { Object3D } from 'three';
+
+/** What the view can show and the panel can steer: a body with handles, or a face in a pose space. */
+export interface StudioScene {
+  readonly kind: 'body' | 'pose';
+  readonly object: Object3D;
+  /** Whether it stands on the ground and casts a shadow there. */
+  readonly grounded: boolean;
+  readonly panel: HTMLElement;
+  /** After a frame was drawn: what lies over the picture follows the camera. */
+  drawn(): void;
+  /** Back to rest, eased unless motion is unwanted. */
+  reset(): void;
+  dispose(): void;
+}

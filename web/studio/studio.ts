@@ -1,0 +1,216 @@
+import type { BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
+import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
+import { BodyScene } from './body-scene.ts';
+import { byId } from './dom.ts';
+import { farthestVertices } from './farthest.ts';
+import { fetchModel } from './fetch-model.ts';
+import { readHandles } from './handles-json.ts';
+import { LiveBody } from './live-body.ts';
+import { type LoadedModel, loadModel } from './load-model.ts';
+import { isAbort, type Messages } from './messages.ts';
+import type { ModelSwitch } from './model-switch.ts';
+import { type ModelEntry, modelOf } from './models.ts';
+import type { Note } from './note.ts';
+import { Placing } from './placing.ts';
+import type { Progress } from './progress.ts';
+import { Readout } from './readout.ts';
+import type { StudioScene } from './scene.ts';
+import { StudioError } from './studio-error.ts';
+import type { View } from './view.ts';
+
+const OWN = 'own';
+const OWN_VIEW = { azimuth: 35, elevation: 14 };
+const OWN_HANDLES = 6;
+/** Voxels along the longest side: a compact body fills most of its box, and 96 would take it a quarter of a minute. */
+const OWN_RESOLUTION = 64;
+
+export interface StudioParts {
+  readonly view: View;
+  readonly solver: Promise<Handlebody>;
+  readonly messages: Messages;
+  readonly progress: Progress;
+  readonly note: Note;
+}
+
+/** Brings models onto the stage one at a time; the former one stays until the next is ready, and for good when that fails. */
+export class Studio {
+  readonly #parts: StudioParts;
+  readonly #root = byId('studio');
+  readonly #placing: Placing;
+  readonly #readout = new Readout(byId('readout'));
+  #switch: ModelSwitch | undefined;
+  #scene: StudioScene | undefined;
+  #shown = '';
+  #work: AbortController | undefined;
+  #ownFile: File | undefined;
+
+  constructor(parts: StudioParts) {
+    this.#parts = parts;
+    parts.view.onDrawn = () => this.#scene?.drawn();
+    this.#placing = new Placing(parts.note, (x, y) => this.#body?.addAt(x, y) ?? false);
+  }
+
+  set modelSwitch(value: ModelSwitch) {
+    this.#switch = value;
+  }
+
+  /** Loads one of the studio's models, or the own one again. */
+  async choose(id: string): Promise<void> {
+    if (id === this.#shown && !this.#work) return;
+    if (id === OWN) {
+      if (this.#ownFile) await this.open(this.#ownFile);
+      return;
+    }
+    const entry = modelOf(id);
+    if (!entry) return;
+    await this.#bring(id, undefined, async (signal) => {
+      const { progress } = this.#parts;
+      progress.begin(`Loading ${entry.label}…`);
+      const buffer = await fetchModel(new URL(`../models/${entry.file}`, document.baseURI), signal, (part) => progress.set(part));
+      return this.#stage(await loadModel(buffer), entry.label, signal, entry);
+    });
+  }
+
+  /** Takes a file of the user's: a GLB to show, or handles for what is shown. */
+  async open(file: File): Promise<void> {
+    if (/\.json$/i.test(file.name)) return this.#takeHandles(file);
+    const name = file.name.replace(/\.[^.]*$/, '') || 'Your model';
+    await this.#bring(OWN, name, async (signal) => {
+      this.#parts.progress.begin(`Reading ${file.name}…`, () => this.#work?.abort());
+      const scene = await this.#stage(await loadModel(await file.arrayBuffer()), name, signal);
+      this.#ownFile = file;
+      return scene;
+    });
+  }
+
+  reset(): void {
+    this.#scene?.reset();
+  }
+
+  get #body(): BodyScene | undefined {
+    return this.#scene instanceof BodyScene ? this.#scene : undefined;
+  }
+
+  /** Runs what makes a scene and swaps it in. */
+  async #bring(id: string, label: string | undefined, make: (signal: AbortSignal) => Promise<StudioScene>): Promise<void> {
+    this.#work?.abort();
+    const work = new AbortController();
+    this.#work = work;
+    this.#placing.end();
+    const { messages, progress } = this.#parts;
+    try {
+      const scene = await make(work.signal);
+      if (work.signal.aborted) {
+        scene.dispose();
+        return;
+      }
+      messages.clear();
+      this.#swap(scene, id);
+      this.#switch?.show(id, label);
+    } catch (error) {
+      if (work.signal.aborted && this.#work !== work) return;
+      if (!isAbort(error)) this.#fail(error);
+      if (this.#shown) this.#switch?.show(this.#shown);
+    } finally {
+      if (this.#work === work) {
+        this.#work = undefined;
+        progress.end();
+      }
+    }
+  }
+
+  #fail(error: unknown): void {
+    const { messages } = this.#parts;
+    const code = (error as { code?: unknown }).code;
+    if (code === 'wasm-unavailable' || code === 'wasm-trapped') {
+      this.#root.dataset.state = 'failed';
+      messages.showInstead(error);
+    } else {
+      if (!this.#shown) this.#root.dataset.state = 'empty';
+      messages.show(error);
+    }
+  }
+
+  #swap(scene: StudioScene, id: string): void {
+    this.#scene?.dispose();
+    this.#scene = scene;
+    this.#shown = id;
+    const { view } = this.#parts;
+    view.show(scene.object);
+    byId('panel').replaceChildren(scene.panel);
+    this.#root.dataset.model = id;
+    this.#root.dataset.kind = scene.kind;
+    this.#root.dataset.state = 'ready';
+  }
+
+  async #stage(model: LoadedModel, title: string, signal: AbortSignal, entry?: ModelEntry): Promise<StudioScene> {
+    const { view, solver, messages } = this.#parts;
+    const angles = entry?.view ?? OWN_VIEW;
+    if (!this.#shown && entry) {
+      // The first picture does not wait for the solver.
+      view.show(model.object);
+      view.frame(model.object, angles, !model.space);
+    }
+    const common = { view, object: model.object, title, onError: (e: unknown) => messages.show(e), onGood: () => messages.clear() };
+    const scene = model.space
+      ? new (await import('./pose-scene.ts')).PoseScene({ ...common, solver: await solver, space: model.space })
+      : await this.#stageBody(model, common, signal, entry);
+    if (this.#shown || !entry) view.frame(scene.object, angles, scene.grounded);
+    return scene;
+  }
+
+  async #stageBody(
+    model: LoadedModel,
+    common: Pick<ConstructorParameters<typeof BodyScene>[0], 'view' | 'object' | 'title' | 'onError' | 'onGood'>,
+    signal: AbortSignal,
+    entry: ModelEntry | undefined,
+  ): Promise<BodyScene> {
+    const { mesh, parts, normals } = meshFromObject(model.object);
+    const body = model.body ?? (await this.#bake(mesh, signal));
+    const points: { name: string; handle: Handle }[] = entry?.handles.length
+      ? entry.handles.map(({ name, vertex }) => ({ name, handle: { vertex } }))
+      : farthestVertices(body.mesh.positions, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, handle: { vertex } }));
+    const live = new LiveBody(await this.#parts.solver, body, normals);
+    const shown = new DeformedGeometry(parts);
+    try {
+      return new BodyScene({
+        ...common,
+        body: live,
+        shown,
+        invitation: entry?.invitation ?? 'Drag a handle',
+        points,
+        overlay: byId('handles'),
+        readout: this.#readout,
+        onPlace: () => this.#placing.begin(),
+      });
+    } catch (error) {
+      shown.dispose();
+      live.dispose();
+      throw error;
+    }
+  }
+
+  async #bake(mesh: BodyData['mesh'], signal: AbortSignal): Promise<BodyData> {
+    const { progress } = this.#parts;
+    progress.begin('Finding the inside of your model…', () => this.#work?.abort());
+    const { bakeInWorker } = await import('../worker/index.ts');
+    return bakeInWorker(mesh, { resolution: OWN_RESOLUTION, signal, onProgress: (part) => progress.set(part) });
+  }
+
+  async #takeHandles(file: File): Promise<void> {
+    const { messages } = this.#parts;
+    try {
+      const orders = readHandles(await file.text());
+      if (!this.#body) {
+        throw new StudioError(
+          'no-body',
+          'Handles from a file need a body, and there is none on the stage.',
+          'Choose the dog, or open a GLB first.',
+        );
+      }
+      this.#body.order(orders);
+    } catch (error) {
+      messages.show(error);
+    }
+  }
+}

@@ -1,0 +1,217 @@
+import {
+  Box3,
+  MOUSE,
+  NeutralToneMapping,
+  type Object3D,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  TOUCH,
+  Vector3,
+  VSMShadowMap,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { disposeObject } from './dispose-object.ts';
+import { fitCamera } from './fit-camera.ts';
+import { StudioLight } from './light.ts';
+import { ease, onMotionChange, reducedMotion } from './motion.ts';
+import { StudioError } from './studio-error.ts';
+
+/** Work to do before a frame is drawn: gets the seconds since the last one and says whether there is more to do in the next. */
+export type Step = (seconds: number) => boolean;
+
+const FIELD_OF_VIEW = 32;
+const MOVE_SECONDS = 0.35;
+
+/** The picture: renderer, camera, light. Draws when something changed and sleeps otherwise. */
+export class View {
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
+  readonly light = new StudioLight();
+  readonly controls: OrbitControls;
+  /** Called after each frame with the camera's matrices up to date. */
+  onDrawn: () => void = () => {};
+  onLost: (lost: boolean) => void = () => {};
+  readonly #scene = new Scene();
+  readonly #renderer: WebGLRenderer;
+  readonly #frame: HTMLElement;
+  readonly #steps = new Set<Step>();
+  #object: Object3D | undefined;
+  #home: { position: Vector3; target: Vector3 } | undefined;
+  #scheduled = false;
+  #last = 0;
+  /** The last frame asked for this one, so the time between them passed in a movement. */
+  #awake = false;
+
+  /** `frame` is the element that holds exactly the canvas; pointers on it turn the camera. Throws when there is no WebGL. */
+  constructor(canvas: HTMLCanvasElement, frame: HTMLElement) {
+    this.#frame = frame;
+    const attributes = { alpha: true, antialias: true, depth: true, stencil: false, premultipliedAlpha: true };
+    const context = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
+    if (!context) {
+      throw new StudioError(
+        'webgl-unavailable',
+        'This browser offers no WebGL 2, so there is no 3D picture.',
+        'Turn on hardware acceleration in the browser’s settings, or open the page in another current browser.',
+      );
+    }
+    this.#renderer = new WebGLRenderer({ ...attributes, canvas, context });
+    this.#renderer.toneMapping = NeutralToneMapping;
+    this.#renderer.shadowMap.enabled = true;
+    this.#renderer.shadowMap.type = VSMShadowMap;
+    this.#renderer.shadowMap.autoUpdate = false;
+    this.#scene.add(this.light.group);
+
+    this.controls = new OrbitControls(this.camera, frame);
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
+    this.controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN };
+    this.controls.dampingFactor = 0.12;
+    this.controls.addEventListener('change', () => this.invalidate());
+    // The style sheet decides which touches scroll the page: see .viewport.
+    frame.style.touchAction = '';
+    const damp = () => {
+      this.controls.enableDamping = !reducedMotion();
+    };
+    damp();
+    onMotionChange(damp);
+
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    const theme = () => {
+      this.light.dark = dark.matches;
+      this.invalidate();
+    };
+    theme();
+    dark.addEventListener('change', theme);
+
+    canvas.addEventListener('webglcontextlost', () => this.onLost(true));
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.onLost(false);
+      this.changed();
+    });
+    new ResizeObserver(() => this.#resize()).observe(frame);
+    this.#resize();
+  }
+
+  /** Shows an object in place of the former one. */
+  show(object: Object3D): void {
+    if (this.#object && this.#object !== object) {
+      this.#scene.remove(this.#object);
+      disposeObject(this.#object);
+    }
+    this.#object = object;
+    this.#scene.add(object);
+    this.light.castFrom(object);
+    this.changed();
+  }
+
+  /** Puts the camera so that the object fills the view, seen from the given angles (degrees). */
+  frame(object: Object3D, view: { azimuth: number; elevation: number }, grounded: boolean): void {
+    const box = new Box3().setFromObject(object);
+    const sphere = box.getBoundingSphere(new Sphere());
+    const [azimuth, elevation] = [(view.azimuth * Math.PI) / 180, (view.elevation * Math.PI) / 180];
+    const direction = new Vector3(
+      Math.sin(azimuth) * Math.cos(elevation),
+      Math.sin(elevation),
+      Math.cos(azimuth) * Math.cos(elevation),
+    );
+    this.camera.near = sphere.radius / 50;
+    this.camera.far = sphere.radius * 60;
+    this.camera.updateProjectionMatrix();
+    this.controls.minDistance = sphere.radius * 0.35;
+    this.controls.maxDistance = sphere.radius * 14;
+    this.#home = fitCamera(object, sphere.center, direction, this.camera);
+    this.light.fit(sphere.center, sphere.radius, box.min.y, azimuth);
+    this.light.grounded = grounded;
+    this.camera.position.copy(this.#home.position);
+    this.controls.target.copy(this.#home.target);
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Turns, tilts (radians) and zooms (factor), eased unless motion is unwanted. */
+  turn(azimuth: number, elevation: number, zoom = 1): void {
+    this.#glide((part) => {
+      if (azimuth) this.controls.rotateLeft(azimuth * part);
+      if (elevation) this.controls.rotateUp(elevation * part);
+      // three.js counts the other way: below 1 comes nearer.
+      if (zoom !== 1) this.controls.dollyIn(zoom ** -part);
+    });
+  }
+
+  /** Brings the camera back to where it began. */
+  home(): void {
+    if (!this.#home) return;
+    const { position, target } = this.#home;
+    const [fromPosition, fromTarget] = [this.camera.position.clone(), this.controls.target.clone()];
+    let done = 0;
+    this.#glide((part) => {
+      done += part;
+      this.camera.position.lerpVectors(fromPosition, position, done);
+      this.controls.target.lerpVectors(fromTarget, target, done);
+    });
+  }
+
+  /** The shape or what casts shadows changed: draws a frame with new shadows. */
+  changed(): void {
+    this.#renderer.shadowMap.needsUpdate = true;
+    this.invalidate();
+  }
+
+  /** Asks for a frame. */
+  invalidate(): void {
+    if (this.#scheduled) return;
+    this.#scheduled = true;
+    requestAnimationFrame((now) => this.#draw(now));
+  }
+
+  /** Runs `step` before every frame until it says that it is done. */
+  animate(step: Step): void {
+    this.#steps.add(step);
+    this.invalidate();
+  }
+
+  stop(step: Step): void {
+    this.#steps.delete(step);
+  }
+
+  /** Calls `move` with the parts of a movement that add up to 1. */
+  #glide(move: (part: number) => void): void {
+    if (reducedMotion()) {
+      move(1);
+      this.controls.update();
+      this.invalidate();
+      return;
+    }
+    let [time, before] = [0, 0];
+    this.animate((seconds) => {
+      time += seconds;
+      const now = ease(time / MOVE_SECONDS);
+      move(now - before);
+      before = now;
+      return time < MOVE_SECONDS;
+    });
+  }
+
+  #draw(now: number): void {
+    this.#scheduled = false;
+    // After a sleep the pause is no time that passed in a movement.
+    const seconds = this.#awake ? Math.min((now - this.#last) / 1000, 1 / 4) : 1 / 60;
+    this.#last = now;
+    for (const step of [...this.#steps]) if (!step(seconds)) this.#steps.delete(step);
+    this.controls.update();
+    this.#renderer.render(this.#scene, this.camera);
+    this.onDrawn();
+    this.#awake = this.#steps.size > 0;
+    if (this.#awake) this.invalidate();
+  }
+
+  #resize(): void {
+    const [width, height] = [this.#frame.clientWidth, this.#frame.clientHeight];
+    if (width === 0 || height === 0) return;
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+}

@@ -1,0 +1,10 @@
+/** Handlebody in three.js: "handlebody/three". three.js itself is a peer dependency; glTF-Transform is not needed. */
+export type { PoseSpaceData } from '../assets/schema.ts';
+export { DeformedGeometry, meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
+export {
+  type HandlebodyData,
+  HandlebodyGLTFPlugin,
+  handlebodyData,
+  handlebodyPlugin,
+  type LoadedPoseSpace,
+} from './loader.ts';

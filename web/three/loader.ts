@@ -1,0 +1,120 @@
+/**
+ * Handlebody's two glTF extensions for three.js' GLTFLoader.
+ *
+ * ```ts
+ * const loader = new GLTFLoader().register(handlebodyPlugin);
+ * const gltf = await loader.loadAsync('face.glb');
+ * const { body, poseSpaces } = handlebodyData(gltf);
+ * ```
+ */
+import type { Object3D, Mesh as ThreeMesh } from 'three';
+import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { BodyData } from '../../wasm/ts/types.ts';
+import {
+  assembleBody,
+  BODY_ACCESSORS,
+  type BodyArrays,
+  HANDLEBODY_BODY,
+  HANDLEBODY_POSE_SPACE,
+  type PoseSpaceData,
+  parseBodyHeader,
+  parsePoseSpace,
+} from '../assets/schema.ts';
+import { meshFromObject } from './geometry.ts';
+
+/** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
+export interface LoadedPoseSpace extends PoseSpaceData {
+  readonly meshes: readonly ThreeMesh[];
+}
+
+/** What a loaded file has for Handlebody: `gltf.userData.handlebody`. */
+export interface HandlebodyData {
+  /** Its mesh is that of `meshFromObject(gltf.scene)`. */
+  readonly body?: BodyData;
+  readonly poseSpaces: readonly LoadedPoseSpace[];
+}
+
+/**
+ * What the plugin found, typed; no body and no pose spaces when it was not registered.
+ *
+ * ```ts
+ * const { body } = handlebodyData(gltf);
+ * if (!body) console.log('bake it first');
+ * ```
+ */
+export function handlebodyData(gltf: Pick<GLTF, 'userData'>): HandlebodyData {
+  return (gltf.userData.handlebody as HandlebodyData | undefined) ?? { poseSpaces: [] };
+}
+
+/**
+ * Register it with a GLTFLoader to get `gltf.userData.handlebody`.
+ *
+ * ```ts
+ * new GLTFLoader().register(handlebodyPlugin);
+ * ```
+ */
+export function handlebodyPlugin(parser: GLTFParser): HandlebodyGLTFPlugin {
+  return new HandlebodyGLTFPlugin(parser);
+}
+
+/**
+ * Reads HANDLEBODY_body and HANDLEBODY_pose_space when the scene is there. A file with a damaged extension, or one baked for other
+ * positions, fails to load with a `HandlebodyError`: 'body-version', 'body-invalid', 'body-mismatch', 'file-unsupported',
+ * 'file-invalid', 'example-shape-mismatch' or 'example-not-finite'.
+ */
+export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
+  readonly name = HANDLEBODY_BODY;
+  readonly #parser: GLTFParser;
+
+  constructor(parser: GLTFParser) {
+    this.#parser = parser;
+  }
+
+  async afterRoot(gltf: GLTF): Promise<void> {
+    const body = await this.#readBody(gltf.scene);
+    const poseSpaces = this.#readPoseSpaces(gltf);
+    gltf.userData.handlebody = { ...(body && { body }), poseSpaces } satisfies HandlebodyData;
+  }
+
+  async #readBody(scene: Object3D): Promise<BodyData | undefined> {
+    const json = this.#parser.json.extensions?.[HANDLEBODY_BODY] as Record<string, unknown> | undefined;
+    if (!json) return undefined;
+    const header = parseBodyHeader(json);
+    const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
+    const arrays = Object.fromEntries(await Promise.all(entries)) as unknown as BodyArrays;
+    return assembleBody({ header, arrays, mesh: meshFromObject(scene).mesh });
+  }
+
+  /** The loader's arrays may be windows on one buffer, which posting a body to a worker would take along: so they are copied. */
+  async #readArray(index: unknown, name: string): Promise<unknown> {
+    try {
+      if (this.#parser.json.accessors?.[index as number] === undefined) throw new Error(`accessor ${index} is missing`);
+      return (await this.#parser.getDependency('accessor', index as number)).array.slice();
+    } catch (cause) {
+      throw new HandlebodyError('body-invalid', {
+        message: `The baked body's ${name} cannot be read: ${cause instanceof Error ? cause.message : String(cause)}.`,
+        remedy: 'The file is damaged or was edited: bake the model again.',
+        cause,
+      });
+    }
+  }
+
+  #readPoseSpaces(gltf: GLTF): LoadedPoseSpace[] {
+    const definitions = (this.#parser.json.meshes ?? []) as {
+      extensions?: Record<string, unknown>;
+      primitives: { targets?: unknown[] }[];
+    }[];
+    return definitions.flatMap(({ extensions, primitives }, index) => {
+      const json = extensions?.[HANDLEBODY_POSE_SPACE];
+      if (!json) return [];
+      const space = parsePoseSpace(json, { targetCount: primitives[0]?.targets?.length ?? 0 });
+      const meshes: ThreeMesh[] = [];
+      gltf.scene.traverse((object) => {
+        const isMesh = (object as Partial<ThreeMesh>).isMesh === true;
+        if (isMesh && this.#parser.associations.get(object)?.meshes === index) meshes.push(object as ThreeMesh);
+      });
+      return [{ ...space, meshes }];
+    });
+  }
+}

@@ -1,0 +1,2 @@
+/** Baking off the main thread: "handlebody/worker". */
+export { type BakeInWorkerOptions, bakeInWorker } from './bake-in-worker.ts';
