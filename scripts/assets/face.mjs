@@ -11,7 +11,6 @@ import { faceSource } from './face/source.mjs';
 import { sweaterPart } from './face/sweater.mjs';
 import { UNITS } from './face/units.mjs';
 import { accessor, indexArray, newDocument } from './gltf.mjs';
-import { HandlebodyPoseSpace } from './pose-space.mjs';
 
 /** The height of the head from chin to crown in the base mesh's units, which becomes 1. */
 const HEAD = 2.05;
@@ -31,9 +30,9 @@ const NORMAL_GRAIN = 1 / 64;
  */
 
 /**
- * @returns {import('@gltf-transform/core').Document}
+ * @returns {Promise<import('@gltf-transform/core').Document>}
  */
-export function faceDocument() {
+export async function faceDocument() {
   const source = faceSource();
   const document = newDocument();
   document.getRoot().getAsset().copyright = 'CC0-1.0';
@@ -113,21 +112,15 @@ export function faceDocument() {
   for (const piece of pieces) mesh.addPrimitive(primitiveOf(document, source, piece, dense));
   mesh.setWeights(UNITS.map(() => 0));
 
-  mesh.setExtension(
-    HandlebodyPoseSpace.EXTENSION_NAME,
-    document.createExtension(HandlebodyPoseSpace).createPoseSpace({
-      version: 0,
-      dimensions: [
-        { name: 'valence', min: -1, max: 1 },
-        { name: 'arousal', min: -1, max: 1 },
-      ],
-      examples: EXPRESSIONS.map((expression) => ({
-        name: expression.name,
-        at: [...expression.at],
-        weights: weightsOf(expression),
-      })),
-    }),
-  );
+  const { attachPoseSpace } = await import('../../dist/web/assets/index.js');
+  attachPoseSpace(document, mesh, {
+    version: 0,
+    dimensions: [
+      { name: 'valence', min: -1, max: 1 },
+      { name: 'arousal', min: -1, max: 1 },
+    ],
+    examples: EXPRESSIONS.map((expression) => ({ name: expression.name, at: [...expression.at], weights: weightsOf(expression) })),
+  });
   document.createScene('face').addChild(document.createNode('face').setMesh(mesh));
   return document;
 }

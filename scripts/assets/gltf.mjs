@@ -1,6 +1,5 @@
 /** Models to glTF-Transform documents, and documents to bytes. */
-import { Document, Logger, NodeIO } from '@gltf-transform/core';
-import { HandlebodyPoseSpace } from './pose-space.mjs';
+import { Document, Logger } from '@gltf-transform/core';
 
 /** What every document starts from. The generator names no version and no time: the same input gives the same bytes. */
 export function newDocument() {
@@ -57,8 +56,12 @@ export function plainGlb(model) {
   return document;
 }
 
-/** @param {Document} document */
-export function toBytes(document) {
+/**
+ * Our extensions come from the built library: `npm run assets` builds it first.
+ * @param {Document} document
+ */
+export async function toBytes(document) {
+  const { createIo } = await import('../../dist/web/assets/index.js');
   // A sparse accessor that is more than half full is worth a warning in general; a face unit of a small part is often one.
-  return new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions([HandlebodyPoseSpace]).writeBinary(document);
+  return createIo().setLogger(new Logger(Logger.Verbosity.ERROR)).writeBinary(document);
 }

@@ -1,5 +1,5 @@
 /** `public/models/LICENSES.md`: where each model comes from, who made it, its licence, and what has been changed. */
-import { PACKAGES } from './fetch.mjs';
+import { PACKAGES, readFromPackage } from './fetch.mjs';
 
 /** @param {import('./fetch.mjs').SourcePackage} source */
 function origin({ name, version, kind, sha256 }) {
@@ -23,13 +23,19 @@ Made by \`npm run assets\` (\`scripts/assets/\`) from packages fetched by name, 
 ## dog.glb
 
 - **Source**: ${origin(PACKAGES.dmControl)}, \`dm_control/suite/dog_assets/dog_skin.skn\` and \`skin_texture.png\`: © The dm_control Authors (Google DeepMind).
-- **Licence**: **Apache License 2.0**; a copy is at <https://www.apache.org/licenses/LICENSE-2.0>.
-- **Changed**: bones dropped; turned from Z up to Y up; scaled and stood on the ground; normals computed; the texture reduced to 512 × 512, filled out beyond its islands, and painted in the eye sockets and the mouth, where the source has none.
+- **Licence**: **Apache License 2.0**; a copy is beside this file, \`LICENSE-dog.txt\`.
+- **Changed**: bones dropped; turned from Z up to Y up; scaled and stood on the ground; normals computed; the texture reduced to 512 × 512, filled out beyond its islands, and painted in the eye sockets and the mouth, where the source has none. Interior distances, centers and spheres (\`HANDLEBODY_body\`) are computed by this project.
 
 ## spot.glb
 
 - **Source**: ${origin(PACKAGES.potpourri3d)}, \`deps/geometry-central/test/assets/spot.ply\`.
 - **Licence**: the package and geometry-central are MIT (Nicholas Sharp and others); the model "Spot" is by Keenan Crane, **CC0 1.0** by third-party account.
-- **Changed**: turned to look along +x; scaled and stood on the ground; normals computed. The coat's colors are made by this project.
+- **Changed**: turned to look along +x; scaled and stood on the ground; normals computed. The coat's colors, and the interior distances, centers and spheres (\`HANDLEBODY_body\`), are made by this project.
 `;
+}
+
+/** The licence text that must go with the dog, as its package ships it. @returns {Uint8Array} */
+export function dogLicense() {
+  const name = 'dm_control-1.0.50.dist-info/licenses/LICENSE';
+  return readFromPackage(PACKAGES.dmControl, [name]).get(name) ?? new Uint8Array();
 }

@@ -59,8 +59,8 @@ it.each(CASES)(
     await openFile(page, name, content);
     const alert = page.getByRole('alert');
     await soon(() => alert.locator('.code').textContent()).toContain(code);
-    expect(await alert.locator('.sentence').textContent()).toMatch(/^[A-Z].*\.$/s);
-    expect(await alert.locator('.remedy').textContent()).toMatch(/^[A-Z].*\.$/s);
+    expect(await alert.locator('.sentence').textContent()).toMatch(/^["A-Z].*\.$/s);
+    expect(await alert.locator('.remedy').textContent()).toMatch(/^["A-Z].*\.$/s);
     expect(difference(before, await picture(page))).toBeLessThan(20);
     expect(await page.locator('.handle').count()).toBe(handles);
     expect(await page.locator('#progress').isVisible()).toBe(false);

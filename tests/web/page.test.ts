@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
-import { ball, glb } from './support/files.ts';
+import { ball, glb, poseGlb } from './support/files.ts';
 import { difference, distance, frames, launch, openFile, PHONE, picture, settled, soon, surface, visit } from './support/studio.ts';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -109,6 +109,27 @@ describe('models', () => {
     expect(await page.locator('#studio').getAttribute('data-model')).toBe('own');
     expect(await page.getByRole('radio', { name: 'egg' }).isChecked()).toBe(true);
     expect(await page.getByRole('alert').textContent()).toBe('');
+    expect(said).toEqual([]);
+  });
+
+  it('shows an own pose space on the pad', async () => {
+    const { page, said } = await visit(browser);
+    const examples = [
+      { name: 'plain', at: [0, 0], weights: [0, 0] },
+      { name: 'wide', at: [0.8, 0.4], weights: [1, 0] },
+      { name: 'tall', at: [-0.5, 0.6], weights: [0, 1] },
+    ];
+    await openFile(page, 'mood.glb', poseGlb(examples));
+    await page.waitForSelector('#studio[data-kind=pose]');
+    expect(await page.locator('.handle').count()).toBe(0);
+    const before = await picture(page);
+    await page.getByRole('button', { name: /^wide/ }).click();
+    await soon(async () => difference(before, await picture(page))).toBeGreaterThan(1000);
+    await page.getByRole('radio', { name: 'Dog' }).check();
+    await page.waitForSelector('#studio[data-model=dog]');
+    expect(await page.locator('.handle').count()).toBe(6);
+    await page.getByRole('radio', { name: 'mood' }).check();
+    await page.waitForSelector('#studio[data-kind=pose]');
     expect(said).toEqual([]);
   });
 

@@ -37,7 +37,7 @@ export const MODELS: readonly ModelEntry[] = [
     id: 'spot',
     label: 'Spot',
     file: 'spot.glb',
-    view: { azimuth: 140, elevation: 12 },
+    view: { azimuth: 52, elevation: 12 },
     invitation: 'Drag a hoof',
     handles: [
       { name: 'Front right hoof', vertex: 1166 },
@@ -48,7 +48,7 @@ export const MODELS: readonly ModelEntry[] = [
       { name: 'Tail', vertex: 1855 },
     ],
   },
-  { id: 'face', label: 'Face', file: 'face.glb', view: { azimuth: 14, elevation: 2 }, invitation: '', handles: [] },
+  { id: 'face', label: 'Face', file: 'face.glb', view: { azimuth: 9, elevation: 2 }, invitation: '', handles: [] },
 ];
 
 export function modelOf(id: string): ModelEntry | undefined {

@@ -199,10 +199,14 @@ export class View {
     this.#last = now;
     for (const step of [...this.#steps]) if (!step(seconds)) this.#steps.delete(step);
     this.controls.update();
-    this.#renderer.render(this.#scene, this.camera);
-    this.onDrawn();
+    this.#paint();
     this.#awake = this.#steps.size > 0;
     if (this.#awake) this.invalidate();
+  }
+
+  #paint(): void {
+    this.#renderer.render(this.#scene, this.camera);
+    this.onDrawn();
   }
 
   #resize(): void {
@@ -212,6 +216,7 @@ export class View {
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.invalidate();
+    // Now, not in the next frame: the canvas has just lost what was on it.
+    this.#paint();
   }
 }

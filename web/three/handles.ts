@@ -41,7 +41,8 @@ interface Item {
  * Page Up and Page Down coarsely up and down, + and − toward and away (so do Alt and the up and down arrows), Esc takes a move back,
  * Home puts a handle back, Delete removes or puts back.
  *
- * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side).
+ * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side), `data-right`
+ * (so far right that a label belongs on its left).
  *
  * ```ts
  * const handles = new HandleOverlay({ camera, container, onMove: (i, p) => p.toArray(irbf.targets, i * 10) });
@@ -149,6 +150,7 @@ export class HandleOverlay {
       if (!visible) continue;
       const [x, y] = [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height];
       button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+      button.toggleAttribute('data-right', x > width * 0.6);
       // Nearer handles lie on top, within the overlay's own stacking context.
       button.style.zIndex = String(1 + Math.round((1 - p.z) * 10000));
     }

@@ -103,9 +103,9 @@ function atlas(u, v) {
 export function mouthPart(source) {
   /** @type {[Part, [number, number, number]][]} In linear light. */
   const pieces = [
-    [partOf(source, bodyFaces(source, ['mouth'])), [0.15, 0.03, 0.028]],
+    [partOf(source, bodyFaces(source, ['mouth'])), [0.17, 0.036, 0.033]],
     [partOf(source, source.groups.get('helper-upper-teeth') ?? []), [0.56, 0.51, 0.43]],
-    [partOf(source, source.groups.get('helper-lower-teeth') ?? []), [0.34, 0.3, 0.255]],
+    [partOf(source, source.groups.get('helper-lower-teeth') ?? []), [0.44, 0.395, 0.335]],
     [partOf(source, source.groups.get('helper-tongue') ?? []), [0.3, 0.075, 0.072]],
   ];
   for (const [part] of pieces.slice(1, 3)) {
@@ -124,7 +124,7 @@ export function mouthPart(source) {
       // Light reaches the lips and the front teeth only.
       const depth = Math.max(0, front - (p[3 * i + 2] ?? 0));
       const corner = 1 - 0.8 * between(0.13, 0.3, Math.abs(p[3 * i] ?? 0));
-      const light = corner * (piece === 0 ? Math.max(0.06, 1 - depth / 0.16) : Math.max(0.12, 1 - depth / 0.36));
+      const light = piece === 0 ? Math.max(0.2, 1 - depth / 0.16) : corner * Math.max(0.12, 1 - depth / 0.36);
       return [...color.map((c) => Math.round(255 * c * light)), 255];
     });
   });

@@ -19,12 +19,9 @@ export function glb({ positions, indices, targets = [], extensions }: Primitive)
     offset += array.byteLength;
     return view;
   });
-  const finite = positions.every(Number.isFinite);
-  const bounds = (axis: number) => positions.filter((_, i) => i % 3 === axis);
-  const range = finite && { min: [0, 1, 2].map((a) => Math.min(...bounds(a))), max: [0, 1, 2].map((a) => Math.max(...bounds(a))) };
   const accessors = arrays.map((array, i) => {
     if (array instanceof Uint32Array) return { bufferView: i, componentType: 5125, type: 'SCALAR', count: array.length };
-    return { bufferView: i, componentType: 5126, type: 'VEC3', count: array.length / 3, ...(i === 0 && range) };
+    return { bufferView: i, componentType: 5126, type: 'VEC3', count: array.length / 3, ...bounds(array) };
   });
   const json = {
     asset: { version: '2.0' },
@@ -49,6 +46,12 @@ export function glb({ positions, indices, targets = [], extensions }: Primitive)
     buffers: [{ byteLength: bin.length }],
   };
   return container(JSON.stringify(json), bin);
+}
+
+/** Bounds of what is finite, so that only the positions themselves are at fault. */
+function bounds(positions: Float32Array): { min: number[]; max: number[] } {
+  const along = (axis: number) => positions.filter((value, i) => i % 3 === axis && Number.isFinite(value));
+  return { min: [0, 1, 2].map((axis) => Math.min(...along(axis))), max: [0, 1, 2].map((axis) => Math.max(...along(axis))) };
 }
 
 function container(json: string, bin: Buffer): Uint8Array {
