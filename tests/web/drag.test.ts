@@ -1,6 +1,19 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { difference, distance, frames, launch, middle, PHONE, picture, settled, soon, surface, visit } from './support/studio.ts';
+import {
+  difference,
+  distance,
+  frames,
+  launch,
+  middle,
+  PHONE,
+  picture,
+  settled,
+  soon,
+  surface,
+  swipe,
+  visit,
+} from './support/studio.ts';
 
 const PAW = 'Front right paw';
 const OTHER = 'Front left paw';
@@ -100,27 +113,18 @@ describe('a handle on the dog', () => {
     await soon(async () => (await surface(page, PAW))[1] - rest[1]).toBeCloseTo(0.1, 2);
   });
 
-  it('follows a finger without scrolling the page; a finger beside it scrolls', async () => {
+  it('follows a finger without scrolling the page; a finger beside it scrolls up and down and turns sideways', async () => {
     const { page } = await visit(browser, PHONE);
     const rest = await surface(page, PAW);
     const from = await middle(page, PAW);
-    const cdp = await page.context().newCDPSession(page);
-    const swipe = async (x: number, y: number, dx: number, dy: number) => {
-      await cdp.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x, y }] });
-      for (let i = 1; i <= 8; i++) {
-        await cdp.send('Input.dispatchTouchEvent', {
-          type: 'touchMove',
-          touchPoints: [{ x: x + (dx * i) / 8, y: y + (dy * i) / 8 }],
-        });
-        await frames(page, 1);
-      }
-      await cdp.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-    };
-    await swipe(from.x, from.y, 10, -60);
+    await swipe(page, from.x, from.y, 10, -60);
     await settled(page);
     expect(distance(await surface(page, PAW), rest)).toBeGreaterThan(0.05);
     expect(await page.evaluate(() => scrollY)).toBe(0);
-    await swipe(40, 400, 0, -200);
+    const before = await picture(page);
+    await swipe(page, 40, 400, 120, 0);
+    expect(difference(before, await picture(page))).toBeGreaterThan(3000);
+    await swipe(page, 40, 400, 0, -200);
     await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
   });
 });

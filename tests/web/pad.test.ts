@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { difference, frames, launch, PHONE, picture, soon, visit } from './support/studio.ts';
+import { difference, frames, launch, PHONE, picture, soon, swipe, visit } from './support/studio.ts';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -81,6 +81,26 @@ describe('the emotion pad', () => {
     await soon(async () => difference(before, await picture(page))).toBeGreaterThan(500);
     // The place is read out once the puck has rested.
     await soon(() => page.locator('[aria-live=polite]').textContent()).toMatch(/^valence −1\.00, arousal −0\.\d\d/);
+  });
+
+  it('is steered by a finger on the puck; a finger beside it scrolls the page or taps', async () => {
+    const { page } = await visit(browser, { hash: '#face', ...PHONE });
+    const box = async () => {
+      const pad = await page.locator('.pad').boundingBox();
+      if (!pad) throw new Error('there is no pad');
+      return { ...pad, cx: pad.x + pad.width / 2, cy: pad.y + pad.height / 2 };
+    };
+    let pad = await box();
+    await swipe(page, pad.cx, pad.cy, 20, -100);
+    expect(await place(page)).toMatch(/^valence 0\.1\d, arousal 0\.6\d/);
+    expect(await page.evaluate(() => scrollY)).toBe(0);
+    const before = await place(page);
+    await swipe(page, pad.x + 60, pad.cy + 60, 0, -120);
+    await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
+    expect(await place(page)).toBe(before);
+    pad = await box();
+    await page.touchscreen.tap(pad.x + pad.width * 0.175 + 3, pad.y + pad.height * 0.635 + 3);
+    expect(await place(page)).toBe('valence −0.65, arousal −0.27, sad');
   });
 
   it('goes to an example by its name', async () => {

@@ -104,6 +104,7 @@ describe('models', () => {
 
     const fine = ball(150, 200);
     await openFile(page, 'large.glb', glb(fine));
+    await page.waitForFunction(() => (document.querySelector('#progress progress') as HTMLProgressElement).position > 0);
     await page.getByRole('button', { name: 'Cancel' }).click();
     await page.locator('#progress').waitFor({ state: 'hidden' });
     expect(await page.locator('#studio').getAttribute('data-model')).toBe('own');

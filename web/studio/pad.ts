@@ -1,5 +1,5 @@
 import { declutter, type Label } from './declutter.ts';
-import { svg } from './dom.ts';
+import { h, svg } from './dom.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 
 /** Words for the ends of the axes of Russell's plane; other spaces get minus and plus. */
@@ -21,11 +21,15 @@ export class Pad {
   readonly #dots: SVGCircleElement[];
   readonly #labels: SVGTextElement[];
   readonly #puck = svg('circle', { class: 'puck', r: 10 });
+  /** What a finger takes the puck by; in HTML, since browsers do not ask parts of a picture whether a touch may scroll. */
+  readonly #grip = h('div', { class: 'grip' });
   readonly #ends: SVGTextElement[];
   #size = 0;
   #at: readonly [number, number] = [0, 0];
   #dragging: number | undefined;
   #before: readonly [number, number] = [0, 0];
+  /** A touch that has not said yet what it wants. */
+  #tap = false;
 
   constructor(source: PoseSpaceSource, limit: number, go: (x: number, y: number) => void) {
     this.#source = source;
@@ -41,10 +45,14 @@ export class Pad {
     this.#svg.append(this.#lines, ...this.#ends, ...this.#dots, ...this.#labels, this.#puck);
     this.element = document.createElement('div');
     this.element.className = 'pad';
-    this.element.append(this.#svg);
+    this.element.append(this.#svg, this.#grip);
     this.element.addEventListener('pointerdown', (event) => this.#begin(event));
     this.element.addEventListener('pointermove', (event) => event.pointerId === this.#dragging && this.#follow(event, 0));
-    for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
+    this.element.addEventListener('pointerup', (event) => {
+      if (event.pointerId === this.#dragging && this.#tap) this.#follow(event, SNAP);
+      this.#end(event.pointerId);
+    });
+    for (const type of ['pointercancel', 'lostpointercapture'] as const) {
       this.element.addEventListener(type, (event) => this.#end(event.pointerId));
     }
     // The pad takes no focus; while it is dragged, Esc is nobody else's.
@@ -54,8 +62,8 @@ export class Pad {
 
   place(x: number, y: number): void {
     this.#at = [x, y];
-    this.#puck.setAttribute('cx', String(this.#x(x)));
-    this.#puck.setAttribute('cy', String(this.#y(y)));
+    set(this.#puck, { cx: this.#x(x), cy: this.#y(y) });
+    this.#grip.style.translate = `${this.#x(x)}px ${this.#y(y)}px`;
   }
 
   weigh(weights: Float64Array): void {
@@ -81,10 +89,13 @@ export class Pad {
     this.#before = this.#at;
     this.element.setPointerCapture(event.pointerId);
     this.element.toggleAttribute('data-dragging', true);
-    this.#follow(event, SNAP);
+    // A finger beside the puck may be about to scroll the page: it counts when it moves sideways or lifts.
+    this.#tap = event.pointerType === 'touch' && event.target !== this.#grip;
+    if (!this.#tap) this.#follow(event, event.target === this.#grip ? 0 : SNAP);
   }
 
   #follow(event: PointerEvent, snap: number): void {
+    if (snap === 0) this.#tap = false;
     const box = this.element.getBoundingClientRect();
     const [px, py] = [event.clientX - box.left - this.element.clientLeft, event.clientY - box.top - this.element.clientTop];
     let nearest = snap;

@@ -100,3 +100,15 @@ export async function openFile(page: Page, name: string, content: Uint8Array | s
 export function soon<T>(read: () => T) {
   return expect.poll(read, { timeout: 30_000 });
 }
+
+/** A finger that goes down at a place moves from there and lifts. */
+export async function swipe(page: Page, x: number, y: number, dx: number, dy: number): Promise<void> {
+  const cdp = await page.context().newCDPSession(page);
+  await cdp.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x, y }] });
+  for (let i = 1; i <= 8; i++) {
+    await cdp.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: x + (dx * i) / 8, y: y + (dy * i) / 8 }] });
+    await frames(page, 1);
+  }
+  await cdp.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await cdp.detach();
+}
