@@ -7,7 +7,7 @@ import { ensureInstalled, npm } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
 import { mustRun, runMain } from './lib/run.mjs';
 
-/** A bar of two cubes is baked and its end dragged: the whole way through the solver, in few milliseconds. */
+/** Both entries load, and a refused mesh gives a typed error with a remedy. */
 const SMOKE = `
 import { HandlebodyError, load } from 'handlebody';
 import { load as loadExternal } from 'handlebody/external';

@@ -15,7 +15,8 @@ const tool = (/** @type {string[]} */ ...parts) => at('node_modules', ...parts);
 const node = (/** @type {string[]} */ ...args) => run(process.execPath, args);
 
 const sources = sourceFiles();
-const cpp = sources.filter((file) => isCpp(file) && /^(wasm|tests)\//.test(file));
+// The C interface keeps one function a line, however long: scripts/generate.mjs and CMake read it by lines.
+const cpp = sources.filter((file) => isCpp(file) && /^(wasm|tests)\//.test(file) && file !== 'wasm/abi/handlebody.h');
 
 /** A check ends with 0, with a failing status, or with the reason why it could not run. @type {[string, () => Promise<number | string>][]} */
 const CHECKS = [

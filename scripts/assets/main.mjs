@@ -33,8 +33,8 @@ const RECIPES = {
  * @type {Record<string, { centers: number, resolution: number, spheres: number }>}
  */
 const BAKES = {
-  dog: { centers: 200, resolution: 96, spheres: 100 },
-  spot: { centers: 120, resolution: 40, spheres: 100 },
+  dog: { centers: 300, resolution: 96, spheres: 120 },
+  spot: { centers: 150, resolution: 40, spheres: 80 },
 };
 
 /**

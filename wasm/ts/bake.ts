@@ -4,7 +4,7 @@ import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
 import type { BakeOptions, BodyData, DistanceMethod, Mesh } from './types.ts';
 
-export const BAKE_DEFAULTS = { centers: 200, distance: 'fast-marching', resolution: 96, spheres: 100 } as const;
+export const BAKE_DEFAULTS = { centers: 200, distance: 'fast-marching', resolution: 96, spheres: 120 } as const;
 
 const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean: 1 };
 

@@ -28,8 +28,8 @@ export class Pad {
   #at: readonly [number, number] = [0, 0];
   #dragging: number | undefined;
   #before: readonly [number, number] = [0, 0];
-  /** A touch that has not said yet what it wants. */
-  #tap = false;
+  /** Where a touch began that has not said yet what it wants. */
+  #tap: { readonly x: number; readonly y: number } | undefined;
 
   constructor(source: PoseSpaceSource, limit: number, go: (x: number, y: number) => void) {
     this.#source = source;
@@ -47,7 +47,11 @@ export class Pad {
     this.element.className = 'pad';
     this.element.append(this.#svg, this.#grip);
     this.element.addEventListener('pointerdown', (event) => this.#begin(event));
-    this.element.addEventListener('pointermove', (event) => event.pointerId === this.#dragging && this.#follow(event, 0));
+    this.element.addEventListener('pointermove', (event) => {
+      if (event.pointerId !== this.#dragging) return;
+      if (this.#tap && isSideways(event.clientX - this.#tap.x, event.clientY - this.#tap.y)) this.#tap = undefined;
+      if (!this.#tap) this.#follow(event, 0);
+    });
     this.element.addEventListener('pointerup', (event) => {
       if (event.pointerId === this.#dragging && this.#tap) this.#follow(event, SNAP);
       this.#end(event.pointerId);
@@ -90,12 +94,12 @@ export class Pad {
     this.element.setPointerCapture(event.pointerId);
     this.element.toggleAttribute('data-dragging', true);
     // A finger beside the puck may be about to scroll the page: it counts when it moves sideways or lifts.
-    this.#tap = event.pointerType === 'touch' && event.target !== this.#grip;
+    const unsure = event.pointerType === 'touch' && event.target !== this.#grip;
+    this.#tap = unsure ? { x: event.clientX, y: event.clientY } : undefined;
     if (!this.#tap) this.#follow(event, event.target === this.#grip ? 0 : SNAP);
   }
 
   #follow(event: PointerEvent, snap: number): void {
-    if (snap === 0) this.#tap = false;
     const box = this.element.getBoundingClientRect();
     const [px, py] = [event.clientX - box.left - this.element.clientLeft, event.clientY - box.top - this.element.clientTop];
     let nearest = snap;
@@ -178,6 +182,10 @@ export class Pad {
       this.#lines.append(svg('line', { class: 'leader', x1: x, y1: y, x2, y2 }));
     });
   }
+}
+
+function isSideways(dx: number, dy: number): boolean {
+  return Math.abs(dx) > 8 && Math.abs(dx) > Math.abs(dy);
 }
 
 function set(element: Element, attributes: Record<string, string | number>): void {

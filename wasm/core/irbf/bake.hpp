@@ -22,7 +22,7 @@ struct BakeOptions {
   Index centers = 200;
   int resolution = 96;  // voxels along the longest side of the box
   DistanceMethod method = DistanceMethod::fast_marching;
-  int max_spheres = 100;
+  int max_spheres = 120;
 };
 
 class Bake {

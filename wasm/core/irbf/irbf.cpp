@@ -352,9 +352,11 @@ Result<SolveReport> Irbf::solve(int max_iterations, double tolerance) {
   std::fill(work_.rotations.begin(), work_.rotations.end(), Matrix3::Identity());
   set_edge_targets(work_.rotations);
   const double rigid_energy = energy();
-  for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
-  set_edge_targets(work_.warm);
-  if (energy() < 2 * rigid_energy) work_.rotations.swap(work_.warm);
+  if (solved_) {
+    for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
+    set_edge_targets(work_.warm);
+    if (energy() < 2 * rigid_energy) work_.rotations.swap(work_.warm);
+  }
 
   SolveReport report;
   iterate(max_iterations, tolerance, report);
@@ -368,6 +370,7 @@ Result<SolveReport> Irbf::solve(int max_iterations, double tolerance) {
   translation_ = frame.to + turn * (work_.solution.row(3).transpose() - frame.from);
   coefficients_ = work_.solution.bottomRows(basis_->size()) * turn.transpose();
   for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = turn * work_.rotations[b];
+  solved_ = true;
   return report;
 }
 

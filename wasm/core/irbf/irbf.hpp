@@ -122,6 +122,7 @@ class Irbf {
   Workspace work_;
 
   // The last solution, solver space: the displacement linear·x + translation + Ψ·coefficients.
+  bool solved_ = false;
   std::vector<Matrix3> rotations_;  // M_b of every sphere
   Matrix3 linear_ = Matrix3::Zero();
   Vector3 translation_ = Vector3::Zero();

@@ -40,6 +40,22 @@ void cover(const VoxelDomain& domain, const Sphere& sphere, std::vector<bool>& c
   }
 }
 
+/** Whether no neighbor is farther from the surface by more than `slope` of the way there: true on the medial axis, where the
+ * distance has its ridge, and false on the slopes beside it, where it rises at rate 1. */
+bool is_medial(const VoxelDomain& domain, const std::vector<double>& surface_distance, std::int32_t v, double slope) {
+  const auto at = domain.grid().cell(domain.voxels()[v]);
+  for (int k = -1; k <= 1; ++k) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const std::int32_t u = domain.number(at[0] + i, at[1] + j, at[2] + k);
+        const double step = domain.grid().spacing * std::sqrt(i * i + j * j + k * k);
+        if (u >= 0 && surface_distance[u] - surface_distance[v] > slope * step) return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
@@ -57,7 +73,7 @@ std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<do
     const bool room = static_cast<std::int64_t>(spheres.size()) + waiting < options.max_spheres && sphere.radius >= min_radius;
     if (waiting == 0 && !room) break;  // the radii only fall from here on
     if (!first_of_part) {
-      if (!room || covered[v]) continue;
+      if (!room || covered[v] || !is_medial(domain, surface_distance, v, options.medial_slope)) continue;
       const auto too_close = [&](const Sphere& other) {
         const double gap = sphere.radius + other.radius - options.max_overlap * std::min(sphere.radius, other.radius);
         return (sphere.center - other.center).squaredNorm() < gap * gap;

@@ -14,13 +14,17 @@ struct Sphere {
 };
 
 struct SpherePackingOptions {
-  int max_spheres = 100;
-  double shrink = 0.9;       // radius as a part of the distance to the surface
-  double min_radius = 0.5;   // in voxel spacings
-  double max_overlap = 0.1;  // two spheres may overlap by this part of the smaller radius; negative keeps them apart
+  int max_spheres = 120;
+  double shrink = 0.9;      // radius as a part of the distance to the surface
+  double min_radius = 0.9;  // in voxel spacings
+  double max_overlap = 0;   // two spheres may overlap by this part of the smaller radius; negative keeps them apart
+  // Spheres are centered near the medial axis only: where the distance to the surface rises toward some neighbor by more than this
+  // part of the step, a larger sphere lies that way. 1 admits every voxel, and then the crumbs between a torso's large spheres are
+  // taken before a leg's whole bones: on the dog, 120 spheres left the lower legs bare, and a pulled paw drew out a ribbon.
+  double medial_slope = 0.9;
 };
 
-/** Greedy packing over the domain's voxel centers; `surface_distance[v]` is the distance of voxel v to the surface. Every
+/** Greedy packing over the domain's medial voxel centers; `surface_distance[v]` is the distance of voxel v to the surface. Every
  *  face-connected part of the domain gets at least one sphere, the largest that fits at one of its voxels, even if that exceeds
  *  max_spheres, undercuts min_radius or overlaps. Spheres come largest first. Deterministic: distances within a millionth of a
  *  spacing are ties, and ties are broken by voxel index. Voxels of a bridge lie outside the surface: give them the distance 0. */
