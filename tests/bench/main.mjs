@@ -19,8 +19,12 @@ const ROUNDS = 5;
 /** @param {string} name @param {string[]} options @returns {Promise<string>} The benchmark's program. */
 async function buildNative(name, options) {
   const folder = at('build', `bench-${name}`);
-  await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
-  await mustRun('cmake', ['--build', folder, '--parallel', '--target', 'handlebody_bench'], { stdio: ['ignore', 'ignore', 'inherit'] });
+  await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
+  await mustRun('cmake', ['--build', folder, '--parallel', '--target', 'handlebody_bench'], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
   return path.join(folder, 'handlebody_bench');
 }
 
@@ -59,29 +63,54 @@ await runMain(async () => {
     /** @type {Record<string, Times[]>} */
     const taken = {};
     for (let round = 0; round < ROUNDS; round++) {
-      for (const [side, run] of Object.entries(sides)) (taken[side] ??= []).push(run());
+      for (const [side, run] of Object.entries(sides)) taken[side] = [...(taken[side] ?? []), run()];
     }
     const rows = ['prepare', 'factor', 'solve', 'deform', 'deformNormals'];
     /** @param {string} side @param {string} row */
     const time = (side, row) => median((taken[side] ?? []).map((times) => times[row] ?? Number.NaN));
     /** @param {string} side @param {string} row */
-    const ratio = (side, row) => median((taken.wasm ?? []).map((times, i) => (times[row] ?? Number.NaN) / (taken[side]?.[i]?.[row] ?? Number.NaN)));
+    const ratio = (side, row) =>
+      median((taken.wasm ?? []).map((times, i) => (times[row] ?? Number.NaN) / (taken[side]?.[i]?.[row] ?? Number.NaN)));
 
     const counts = `${body.mesh.positions.length / 3} vertices, ${body.centers.length} centers, ${body.spheres.length / 4} spheres, ${SETUP.handles.length} handles`;
     console.log(`\nDog: ${counts}. Medians of ${ROUNDS} rounds, taken in turns; ${cpus()[0]?.model ?? 'unknown processor'}.\n`);
-    console.log(['', 'wasm ms', 'SSE2 ms', 'own ms', 'wasm/SSE2', 'wasm/own'].map((c, i) => (i ? c.padStart(10) : c.padEnd(22))).join(''));
-    const labels = { prepare: 'prepare the body', factor: 'factor (set handles)', solve: 'solve, 30 iterations', deform: 'deform', deformNormals: 'deform with normals' };
+    console.log(
+      ['', 'wasm ms', 'SSE2 ms', 'own ms', 'wasm/SSE2', 'wasm/own'].map((c, i) => (i ? c.padStart(10) : c.padEnd(22))).join(''),
+    );
+    const labels = {
+      prepare: 'prepare the body',
+      factor: 'factor (set handles)',
+      solve: 'solve, 30 iterations',
+      deform: 'deform',
+      deformNormals: 'deform with normals',
+    };
     /** @type {Record<string, unknown>} */
     const results = {};
     for (const row of rows) {
       const cells = [time('wasm', row), time('sse2', row), time('own', row), ratio('sse2', row), ratio('own', row)];
-      results[row] = { wasmOverSse2: Number(cells[3]?.toFixed(2)), wasmOverOwn: Number(cells[4]?.toFixed(2)), wasmMilliseconds: Number(cells[0]?.toFixed(3)) };
-      console.log([labels[/** @type {keyof typeof labels} */ (row)].padEnd(22), ...cells.map((c) => c.toFixed(2).padStart(10))].join(''));
+      results[row] = {
+        wasmOverSse2: Number(cells[3]?.toFixed(2)),
+        wasmOverOwn: Number(cells[4]?.toFixed(2)),
+        wasmMilliseconds: Number(cells[0]?.toFixed(3)),
+      };
+      console.log(
+        [labels[/** @type {keyof typeof labels} */ (row)].padEnd(22), ...cells.map((c) => c.toFixed(2).padStart(10))].join(''),
+      );
     }
     const load = time('wasm', 'load');
     const frame = await firstFrame();
-    console.log(`\nload() in Node: ${load.toFixed(0)} ms. Studio in headless Chromium (software rendering), from navigation: ${frame}`);
-    const record = { what: `dog: ${counts}`, rounds: ROUNDS, processor: cpus()[0]?.model, node: process.version, results, loadMilliseconds: Math.round(load), firstFrame: frame };
+    console.log(
+      `\nload() in Node: ${load.toFixed(0)} ms. Studio in headless Chromium (software rendering), from navigation: ${frame}`,
+    );
+    const record = {
+      what: `dog: ${counts}`,
+      rounds: ROUNDS,
+      processor: cpus()[0]?.model,
+      node: process.version,
+      results,
+      loadMilliseconds: Math.round(load),
+      firstFrame: frame,
+    };
     writeFileSync(at('tests', 'bench', 'results.json'), `${JSON.stringify(record, null, 2)}\n`);
   } finally {
     rmSync(folder, { recursive: true, force: true });

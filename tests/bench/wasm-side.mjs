@@ -28,7 +28,8 @@ const prepare = leastMilliseconds(3, () => {
 });
 const handles = SETUP.handles.map((vertex) => ({ vertex }));
 const factor = leastMilliseconds(5, () => irbf.setHandles(handles));
-for (const [axis, part] of SETUP.shift.entries()) irbf.targets[axis] = (irbf.targets[axis] ?? 0) + part * body.normalization.diagonal;
+for (const [axis, part] of SETUP.shift.entries())
+  irbf.targets[axis] = (irbf.targets[axis] ?? 0) + part * body.normalization.diagonal;
 const solve = leastMilliseconds(20, () => irbf.solve({ maxIterations: 30, tolerance: 0 }));
 const [out, normals] = [new Float32Array(irbf.vertexCount * 3), new Float32Array(irbf.vertexCount * 3)];
 const deform = leastMilliseconds(60, () => irbf.deform(out));

@@ -58,7 +58,8 @@ function liftPaw(body: BodyData) {
 }
 
 describe('the dog, 400 centers', () => {
-  const bake = (distance: 'fast-marching' | 'euclidean') => hb.bake(served.mesh, { centers: 400, resolution: 96, spheres: 120, distance });
+  const bake = (distance: 'fast-marching' | 'euclidean') =>
+    hb.bake(served.mesh, { centers: 400, resolution: 96, spheres: 120, distance });
 
   it('lifts one paw and leaves the other leg alone', async () => {
     const result = liftPaw(await bake('fast-marching'));
@@ -109,7 +110,8 @@ describe('the dog, as served', () => {
       irbf.targets.set(turn(x, y, z), 10 * k);
     }
     irbf.solve();
-    const at = (v: number) => turn(served.mesh.positions[3 * v] ?? 0, served.mesh.positions[3 * v + 1] ?? 0, served.mesh.positions[3 * v + 2] ?? 0);
+    const at = (v: number) =>
+      turn(served.mesh.positions[3 * v] ?? 0, served.mesh.positions[3 * v + 1] ?? 0, served.mesh.positions[3 * v + 2] ?? 0);
     expect(largest((v, axis) => at(v)[axis] ?? 0)).toBeLessThan(1e-4);
     irbf.dispose();
   });

@@ -23,7 +23,9 @@ beforeAll(async () => {
   });
   const primitives = face.mesh.listPrimitives();
   units = examples[0]?.weights.map((_, u) =>
-    Float64Array.from(primitives.flatMap((primitive) => [...(primitive.listTargets()[u]?.getAttribute('POSITION')?.getArray() ?? [])])),
+    Float64Array.from(
+      primitives.flatMap((primitive) => [...(primitive.listTargets()[u]?.getAttribute('POSITION')?.getArray() ?? [])]),
+    ),
   ) as Float64Array[];
 });
 
@@ -76,15 +78,20 @@ describe('the face on the emotion plane', () => {
     const hull = convexHull(examples.map(({ at }) => at));
     let [least, most, inside] = [0, 0, 0];
     fc.assert(
-      fc.property(fc.double({ min: -1, max: 1, noNaN: true }), fc.double({ min: -1, max: 1, noNaN: true }), fc.constantFrom(1, 1, 1, 30, 1e6), (x, y, far) => {
-        const at = [far * x, far * y];
-        const weights = space.weights(at);
-        expect(weights.reduce((sum, w) => sum + w, 0)).toBeCloseTo(1, 9);
-        if (!hull.every((a, i) => turn(a, hull[(i + 1) % hull.length] ?? a, at) >= 0)) return;
-        inside++;
-        least = Math.min(least, ...weights);
-        most = Math.max(most, ...weights);
-      }),
+      fc.property(
+        fc.double({ min: -1, max: 1, noNaN: true }),
+        fc.double({ min: -1, max: 1, noNaN: true }),
+        fc.constantFrom(1, 1, 1, 30, 1e6),
+        (x, y, far) => {
+          const at = [far * x, far * y];
+          const weights = space.weights(at);
+          expect(weights.reduce((sum, w) => sum + w, 0)).toBeCloseTo(1, 9);
+          if (!hull.every((a, i) => turn(a, hull[(i + 1) % hull.length] ?? a, at) >= 0)) return;
+          inside++;
+          least = Math.min(least, ...weights);
+          most = Math.max(most, ...weights);
+        },
+      ),
       { seed: SEED, numRuns: 5000 },
     );
     expect(inside).toBeGreaterThan(1000);

@@ -16,7 +16,12 @@ it('deforms as the equations of paper 001 do when they are solved directly', asy
   for (const [c, vertex] of (oracle.centers as number[]).entries()) {
     for (const v of voxels) {
       const index = [v % nx, Math.floor(v / nx) % ny, Math.floor(v / (nx * ny))];
-      const offsets = index.map((i, axis) => grid.origin[axis] + grid.spacing * i - ((positions[3 * vertex + axis] ?? 0) - normalization.center[axis]) / normalization.diagonal);
+      const offsets = index.map(
+        (i, axis) =>
+          grid.origin[axis] +
+          grid.spacing * i -
+          ((positions[3 * vertex + axis] ?? 0) - normalization.center[axis]) / normalization.diagonal,
+      );
       distances[c * voxels.length + v] = Math.floor(Math.hypot(...offsets) / oracle.distanceScale);
     }
   }

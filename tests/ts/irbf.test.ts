@@ -51,11 +51,17 @@ describe('bake', () => {
     const [nx, ny] = bar.grid.dimensions;
     let worst = 0;
     for (let c = 0; c < bar.centers.length; c++) {
-      const from = [0, 1, 2].map((axis) => ((bar.mesh.positions[3 * (bar.centers[c] ?? 0) + axis] ?? 0) - (bar.normalization.center[axis] ?? 0)) / bar.normalization.diagonal);
+      const from = [0, 1, 2].map(
+        (axis) =>
+          ((bar.mesh.positions[3 * (bar.centers[c] ?? 0) + axis] ?? 0) - (bar.normalization.center[axis] ?? 0)) /
+          bar.normalization.diagonal,
+      );
       for (let v = 0; v < bar.voxels.length; v += 97) {
         const linear = bar.voxels[v] ?? 0;
         const index = [linear % nx, Math.floor(linear / nx) % ny, Math.floor(linear / (nx * ny))];
-        const straight = Math.hypot(...index.map((i, axis) => (bar.grid.origin[axis] ?? 0) + i * bar.grid.spacing - (from[axis] ?? 0)));
+        const straight = Math.hypot(
+          ...index.map((i, axis) => (bar.grid.origin[axis] ?? 0) + i * bar.grid.spacing - (from[axis] ?? 0)),
+        );
         const interior = (bar.distances[c * bar.voxels.length + v] ?? 0) * bar.distanceScale;
         if (straight > 5 * bar.grid.spacing) worst = Math.max(worst, Math.abs(interior / straight - 1));
       }
@@ -83,23 +89,33 @@ describe('bake', () => {
 
   it('names what is wrong with a mesh', async () => {
     const box = boxMesh([1, 1, 1], [2, 2, 2]);
-    const bake = (mesh: Partial<Mesh>, options = {}) => failure(() => hb.bake({ ...box, ...mesh }, { centers: 5, resolution: 16, ...options }));
+    const bake = (mesh: Partial<Mesh>, options = {}) =>
+      failure(() => hb.bake({ ...box, ...mesh }, { centers: 5, resolution: 16, ...options }));
     const nan = Float64Array.from(box.positions);
     nan[3 * 7 + 2] = Number.NaN;
     expect(await bake({ positions: nan })).toMatchObject({ code: 'mesh-not-finite', culprit: { kind: 'vertex', index: 7 } });
     nan[3 * 7 + 2] = Number.NEGATIVE_INFINITY;
     expect(await bake({ positions: nan })).toMatchObject({ code: 'mesh-not-finite', culprit: { kind: 'vertex', index: 7 } });
     expect(await bake({ triangles: new Uint32Array() })).toMatchObject({ code: 'mesh-no-triangles' });
-    expect(await bake({ positions: new Float32Array(3), triangles: new Uint32Array() })).toMatchObject({ code: 'mesh-too-few-vertices' });
+    expect(await bake({ positions: new Float32Array(3), triangles: new Uint32Array() })).toMatchObject({
+      code: 'mesh-too-few-vertices',
+    });
     expect(await bake({ positions: new Float32Array() })).toMatchObject({ code: 'mesh-too-few-vertices' });
-    expect(await bake({ triangles: Uint32Array.of(0, 1, 999) })).toMatchObject({ code: 'mesh-index-out-of-range', culprit: { kind: 'triangle', index: 0 } });
-    expect(await bake({ positions: new Float32Array(24) , triangles: Uint32Array.of(0, 1, 2) })).toMatchObject({ code: 'mesh-zero-extent' });
+    expect(await bake({ triangles: Uint32Array.of(0, 1, 999) })).toMatchObject({
+      code: 'mesh-index-out-of-range',
+      culprit: { kind: 'triangle', index: 0 },
+    });
+    expect(await bake({ positions: new Float32Array(24), triangles: Uint32Array.of(0, 1, 2) })).toMatchObject({
+      code: 'mesh-zero-extent',
+    });
     expect(await bake({ positions: box.positions.subarray(1) })).toMatchObject({ code: 'invalid-shape' });
     expect(await bake({}, { centers: 0 })).toMatchObject({ code: 'invalid-option' });
     expect(await bake({}, { centers: 1e9 })).toMatchObject({ code: 'invalid-option' });
     expect(await bake({}, { resolution: Number.NaN })).toMatchObject({ code: 'invalid-option' });
     expect(await bake({}, { distance: 'telepathy' })).toMatchObject({ code: 'invalid-option' });
-    expect(await bake({ positions: box.positions.map((x, i) => (i % 3 === 1 ? 0 : x)) })).toMatchObject({ code: 'mesh-no-interior' });
+    expect(await bake({ positions: box.positions.map((x, i) => (i % 3 === 1 ? 0 : x)) })).toMatchObject({
+      code: 'mesh-no-interior',
+    });
   });
 });
 
@@ -121,13 +137,18 @@ describe('irbf', () => {
     fc.assert(
       fc.property(fc.double({ min: -3, max: 3, noNaN: true }), fc.double({ min: -9, max: 9, noNaN: true }), (angle, shift) => {
         const [c, s] = [Math.cos(angle), Math.sin(angle)];
-        const turn = ([x = 0, y = 0, z = 0]: ArrayLike<number> & Iterable<number>) => [c * x - s * y + shift, s * x + c * y, z - shift];
+        const turn = ([x = 0, y = 0, z = 0]: ArrayLike<number> & Iterable<number>) => [
+          c * x - s * y + shift,
+          s * x + c * y,
+          z - shift,
+        ];
         for (let k = 0; k < corners.length; k++) irbf.targets.set(turn(rest.subarray(10 * k, 10 * k + 3)), 10 * k);
         irbf.solve();
         const out = positionsOf(irbf);
         for (let v = 0; v < out.length; v += 3) {
           const expected = turn(bar.mesh.positions.subarray(v, v + 3));
-          for (let axis = 0; axis < 3; axis++) expect(Math.abs((out[v + axis] ?? 0) - (expected[axis] ?? 0))).toBeLessThan(1e-4 * bar.normalization.diagonal);
+          for (let axis = 0; axis < 3; axis++)
+            expect(Math.abs((out[v + axis] ?? 0) - (expected[axis] ?? 0))).toBeLessThan(1e-4 * bar.normalization.diagonal);
         }
       }),
       { seed: SEED, numRuns: 20 },
@@ -196,8 +217,14 @@ describe('irbf', () => {
     irbf.solve();
     const before = positionsOf(irbf);
 
-    expect(await failure(() => irbf.setHandles([{ vertex: 1 }, { vertex: 1e6 }]))).toMatchObject({ code: 'handle-out-of-range', culprit: { kind: 'handle', index: 1 } });
-    expect(await failure(() => irbf.setHandles([{ at: [5, 40, 0] }]))).toMatchObject({ code: 'handle-outside', culprit: { kind: 'handle', index: 0 } });
+    expect(await failure(() => irbf.setHandles([{ vertex: 1 }, { vertex: 1e6 }]))).toMatchObject({
+      code: 'handle-out-of-range',
+      culprit: { kind: 'handle', index: 1 },
+    });
+    expect(await failure(() => irbf.setHandles([{ at: [5, 40, 0] }]))).toMatchObject({
+      code: 'handle-outside',
+      culprit: { kind: 'handle', index: 0 },
+    });
     expect(await failure(() => irbf.setHandles([{ at: [5, Number.NaN, 0] }]))).toMatchObject({ code: 'handle-not-finite' });
     expect(irbf.handleCount).toBe(8);
     for (const bad of [Number.NaN, Number.POSITIVE_INFINITY, 1e300]) {
@@ -222,7 +249,9 @@ describe('irbf', () => {
     const bad = (change: Partial<BodyData>) => failure(() => hb.irbf({ ...bar, ...change }));
     expect(await bad({ distances: bar.distances.subarray(1) })).toMatchObject({ code: 'body-invalid' });
     expect(await bad({ voxels: bar.voxels.toReversed() })).toMatchObject({ code: 'body-invalid' });
-    expect(await bad({ voxels: bar.voxels.map((v, i) => (i === bar.voxels.length - 1 ? 0xffffffff : v)) })).toMatchObject({ code: 'body-invalid' });
+    expect(await bad({ voxels: bar.voxels.map((v, i) => (i === bar.voxels.length - 1 ? 0xffffffff : v)) })).toMatchObject({
+      code: 'body-invalid',
+    });
     expect(await bad({ centers: bar.centers.map(() => 1e6) })).toMatchObject({ code: 'body-invalid' });
     expect(await bad({ grid: { ...bar.grid, dimensions: [0, 5, 5] } })).toMatchObject({ code: 'body-invalid' });
     expect(await bad({ grid: { ...bar.grid, spacing: Number.NaN } })).toMatchObject({ code: 'body-invalid' });

@@ -139,7 +139,12 @@ export class Irbf {
       heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length));
     });
     this.#handles = handles.length;
-    this.#targets = heap.f64(heap.call((e) => e.hb_irbf_targets(irbf)), handles.length * TARGET_SIZE).slice();
+    this.#targets = heap
+      .f64(
+        heap.call((e) => e.hb_irbf_targets(irbf)),
+        handles.length * TARGET_SIZE,
+      )
+      .slice();
   }
 
   /** Local/global iterations from where the last call stopped. On bad targets it throws and the last solution stays. */

@@ -65,7 +65,8 @@ export async function instantiate(source: WebAssembly.Module | BufferSource | UR
     throwIfAborted(signal);
     throw new HandlebodyError('wasm-unavailable', {
       message: `The solver's WebAssembly could not be started: ${cause instanceof Error ? cause.message : String(cause)}`,
-      remedy: "Use a current browser; a content security policy needs 'wasm-unsafe-eval'. Check that the file is this version's own.",
+      remedy:
+        "Use a current browser; a content security policy needs 'wasm-unsafe-eval'. Check that the file is this version's own.",
       cause,
     });
   }

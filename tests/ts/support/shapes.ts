@@ -56,7 +56,11 @@ export function enclosedVolume(positions: ArrayLike<number>, triangles: ArrayLik
 /** Relative change of every edge's length; edges without length are left out. */
 export function edgeStrains(rest: ArrayLike<number>, deformed: ArrayLike<number>, triangles: ArrayLike<number>): Float64Array {
   const length = (p: ArrayLike<number>, a: number, b: number) =>
-    Math.hypot((p[3 * a] ?? 0) - (p[3 * b] ?? 0), (p[3 * a + 1] ?? 0) - (p[3 * b + 1] ?? 0), (p[3 * a + 2] ?? 0) - (p[3 * b + 2] ?? 0));
+    Math.hypot(
+      (p[3 * a] ?? 0) - (p[3 * b] ?? 0),
+      (p[3 * a + 1] ?? 0) - (p[3 * b + 1] ?? 0),
+      (p[3 * a + 2] ?? 0) - (p[3 * b + 2] ?? 0),
+    );
   const strains: number[] = [];
   for (let t = 0; t < triangles.length; t++) {
     const a = triangles[t] ?? 0;
