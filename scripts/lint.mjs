@@ -21,12 +21,8 @@ const cpp = sources.filter((file) => isCpp(file) && /^(wasm|tests)\//.test(file)
 /** A check ends with 0, with a failing status, or with the reason why it could not run. @type {[string, () => Promise<number | string>][]} */
 const CHECKS = [
   ['biome', () => node(tool('@biomejs', 'biome', 'bin', 'biome'), 'check', '--error-on-warnings', ...(fix ? ['--write'] : []))],
-  [
-    'types',
-    async () =>
-      (await node(tool('typescript', 'bin', 'tsc'), '--noEmit')) ||
-      node(tool('typescript', 'bin', 'tsc'), '-p', 'tsconfig.build.json', '--noEmit'),
-  ],
+  // The library first: what runs on dist/ is checked against its declarations.
+  ['types', async () => (await node(at('scripts', 'build.mjs'), 'library')) || node(tool('typescript', 'bin', 'tsc'), '--noEmit')],
   ['layers', () => node(at('scripts', 'lint-layers.mjs'))],
   ['words', lintWords],
   ['clang-format', clangFormat],

@@ -20,8 +20,10 @@ extern "C" {
 int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
                       uint32_t center_count, uint32_t resolution, uint32_t method, uint32_t max_spheres, hb_bake** bake) {
   if (method > static_cast<uint32_t>(handlebody::DistanceMethod::euclidean)) {
-    return handlebody::fail({HB_ERROR_INVALID_OPTION, "There is no distance method " + std::to_string(method) + ".",
-                             "Use 0 for fast marching or 1 for Euclidean.", HB_CULPRIT_OPTION});
+    return handlebody::fail({HB_ERROR_INVALID_OPTION,
+                             {"There is no distance method ", method, "."},
+                             {"Use 0 for fast marching or 1 for Euclidean."},
+                             HB_CULPRIT_OPTION});
   }
   handlebody::BakeOptions options;
   options.centers = center_count;
@@ -44,7 +46,7 @@ int32_t hb_bake_step(hb_bake* bake, double* progress) {
 
 int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   if (!bake->bake.finished()) {
-    return handlebody::fail({HB_ERROR_INTERNAL, "The bake is not finished.", "Step it until its progress is 1."});
+    return handlebody::fail({HB_ERROR_INTERNAL, {"The bake is not finished."}, {"Step it until its progress is 1."}});
   }
   const handlebody::Body& body = bake->bake.body();
   bake->spheres.clear();

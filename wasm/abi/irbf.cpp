@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,8 +32,9 @@ handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
   std::vector<uint32_t> voxels(body.voxels, body.voxels + body.voxel_count);
   const bool ascending = std::adjacent_find(voxels.begin(), voxels.end(), std::greater_equal<>()) == voxels.end();
   if (!usable || !ascending || (!voxels.empty() && voxels.back() >= static_cast<uint64_t>(grid.size()))) {
-    return handlebody::Error{HB_ERROR_BODY_INVALID, "The baked body's voxel grid is not usable, or its voxels lie outside the grid.",
-                             "Bake the model again with this version."};
+    return handlebody::Error(HB_ERROR_BODY_INVALID,
+                             {"The baked body's voxel grid is not usable, or its voxels lie outside the grid."},
+                             {"Bake the model again with this version."});
   }
   return handlebody::VoxelDomain(grid, std::move(voxels));
 }
@@ -46,8 +46,8 @@ extern "C" {
 int32_t hb_irbf_create(const hb_body* from, uint32_t kernel, double relative_width, double smoothness, double anchor_weight,
                        double edge_exponent, hb_irbf** out) {
   if (kernel >= handlebody::kernel_count) {
-    return fail({HB_ERROR_INVALID_OPTION, "There is no kernel " + std::to_string(kernel) + ".", "Use a number of the kernel list.",
-                 HB_CULPRIT_OPTION});
+    return fail(
+        {HB_ERROR_INVALID_OPTION, {"There is no kernel ", kernel, "."}, {"Use a number of the kernel list."}, HB_CULPRIT_OPTION});
   }
   auto domain = read_domain(*from);
   if (!domain) return fail(domain.error());

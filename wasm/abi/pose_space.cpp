@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <new>
-#include <string>
 #include <utility>
 
 #include "abi/support.hpp"
@@ -21,11 +20,11 @@ constexpr uint32_t largest_count = 4096;
 constexpr uint32_t largest_dimension = 64;
 
 int32_t fail_option(const char* message, const char* remedy) {
-  return fail({HB_ERROR_INVALID_OPTION, message, remedy, HB_CULPRIT_OPTION, -1});
+  return fail({HB_ERROR_INVALID_OPTION, {message}, {remedy}, HB_CULPRIT_OPTION, -1});
 }
 
 int32_t fail_null(const char* what) {
-  return fail({HB_ERROR_INVALID_SHAPE, std::string("The pointer to the ") + what + " is NULL.", "Pass a valid pointer."});
+  return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the ", what, " is NULL."}, {"Pass a valid pointer."}});
 }
 
 }  // namespace
@@ -36,12 +35,12 @@ int32_t hb_pose_space_create(const double* places, uint32_t count, uint32_t dime
                              double width, int32_t degree, hb_pose_space** space) {
   if (!space) return fail_null("result");
   if (count == 0)
-    return fail({HB_ERROR_EXAMPLES_TOO_FEW, "A pose space needs at least one example.", "Give one or more examples."});
+    return fail({HB_ERROR_EXAMPLES_TOO_FEW, {"A pose space needs at least one example."}, {"Give one or more examples."}});
   if (count > largest_count)
-    return fail({HB_ERROR_OUT_OF_MEMORY, std::to_string(count) + " examples are more than 4096.", "Use fewer examples."});
+    return fail({HB_ERROR_OUT_OF_MEMORY, {count, " examples are more than 4096."}, {"Use fewer examples."}});
   if (dimension == 0 || dimension > largest_dimension)
-    return fail({HB_ERROR_INVALID_SHAPE, "A pose space of " + std::to_string(dimension) + " dimensions is not supported.",
-                 "Use 1 to 64 dimensions."});
+    return fail(
+        {HB_ERROR_INVALID_SHAPE, {"A pose space of ", dimension, " dimensions is not supported."}, {"Use 1 to 64 dimensions."}});
   if (!places) return fail_null("places");
   if (method >= pose_space_method_count) return fail_option("The method is unknown.", "Use 0 (cardinal) or 1 (normalized).");
   if (kernel >= kernel_count) return fail_option("The kernel is unknown.", "Use a number of the kernel list, 0 to 6.");
@@ -50,7 +49,7 @@ int32_t hb_pose_space_create(const double* places, uint32_t count, uint32_t dime
   auto created = PoseSpace::create(Eigen::Map<const Matrix>(places, count, dimension), options);
   if (!created) return fail(created.error());
   auto* object = new (std::nothrow) hb_pose_space{std::move(*created)};
-  if (!object) return fail({HB_ERROR_OUT_OF_MEMORY, "There is no memory for the pose space.", "Use fewer examples."});
+  if (!object) return fail({HB_ERROR_OUT_OF_MEMORY, {"There is no memory for the pose space."}, {"Use fewer examples."}});
   *space = object;
   return HB_OK;
 }

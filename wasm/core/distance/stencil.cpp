@@ -1,10 +1,11 @@
 #include "core/distance/stencil.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/numerics/orthogonal_columns.hpp"
 
 namespace handlebody {
 namespace {
@@ -92,13 +93,12 @@ void moving_least_squares(const Vector3& p, double radius, const std::vector<Vec
     weights[i] /= total;
     covariance += weights[i] * (places[i] - mean) * (places[i] - mean).transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(covariance);
-  Vector3 slope = axes.eigenvectors().transpose() * (p - mean);
+  const OrthogonalColumns axes = orthogonal_columns(covariance);
+  Vector3 slope = Vector3::Zero();
   for (int a = 0; a < 3; ++a) {
-    const double t = std::clamp(axes.eigenvalues()[a] / spanned, 0.0, 1.0);
-    slope[a] *= t * (3 - 2 * t) / std::max(axes.eigenvalues()[a], spanned);  // t²(3 − 2t)/λ
+    const double eigenvalue = axes.columns.col(a).norm(), t = std::min(eigenvalue / spanned, 1.0);
+    slope += axes.v.col(a).dot(p - mean) * t * (3 - 2 * t) / std::max(eigenvalue, spanned) * axes.v.col(a);  // t²(3 − 2t)/λ
   }
-  slope = axes.eigenvectors() * slope;
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += weights[i] * std::abs(1 + (places[i] - mean).dot(slope));
   if (sum > max_weight_sum) slope *= (max_weight_sum - 1) / (sum - 1);  // Σ|w| is convex in the slope, and 1 at slope 0

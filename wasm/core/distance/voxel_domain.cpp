@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <tuple>
 #include <utility>
+
+#include "core/numerics/sort.hpp"
 
 namespace handlebody {
 namespace {
@@ -68,19 +69,19 @@ std::array<std::int32_t, 3> Grid::cell(std::int64_t linear_index) const {
 Result<Grid> make_grid(const Vector3& low, const Vector3& high, int resolution) {
   const Vector3 extent = high - low;
   if (resolution < 1) {
-    return Error{HB_ERROR_INVALID_OPTION, "resolution is " + std::to_string(resolution),
-                 "Give at least 1 voxel along the longest side.", HB_CULPRIT_OPTION};
+    return Error(HB_ERROR_INVALID_OPTION, {"The resolution is ", resolution, "."},
+                 {"Give at least 1 voxel along the longest side."}, HB_CULPRIT_OPTION);
   }
   if (!low.allFinite() || !extent.allFinite()) {
-    return Error{HB_ERROR_MESH_NOT_FINITE, "the bounding box of the mesh is not finite",
-                 "Remove vertices that are infinite or not numbers."};
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"The bounding box of the mesh is not finite."},
+                 {"Remove vertices that are infinite or not numbers."});
   }
   Grid grid;
   grid.spacing = extent.maxCoeff() / resolution;
   const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   if (!(grid.spacing > magnitude * 16 * std::numeric_limits<double>::epsilon())) {
-    return Error{HB_ERROR_MESH_ZERO_EXTENT, "all vertices of the mesh coincide",
-                 "Check the mesh's positions and its node's scale."};
+    return Error(HB_ERROR_MESH_ZERO_EXTENT, {"All vertices of the mesh coincide."},
+                 {"Check the mesh's positions and its node's scale."});
   }
 
   double size = 1;
@@ -92,10 +93,9 @@ Result<Grid> make_grid(const Vector3& low, const Vector3& high, int resolution) 
     grid.origin[a] = low[a] + 0.5 * extent[a] - 0.5 * (count - 1) * grid.spacing;
   }
   if (size > max_voxels) {
-    return Error{HB_ERROR_MESH_TOO_LARGE,
-                 "a grid of " + std::to_string(grid.dims[0]) + " x " + std::to_string(grid.dims[1]) + " x " +
-                     std::to_string(grid.dims[2]) + " voxels exceeds 64 million",
-                 "Lower the resolution.", HB_CULPRIT_OPTION};
+    return Error(HB_ERROR_MESH_TOO_LARGE,
+                 {"A grid of ", grid.dims[0], " x ", grid.dims[1], " x ", grid.dims[2], " voxels exceeds 64 million."},
+                 {"Lower the resolution."}, HB_CULPRIT_OPTION);
   }
   return grid;
 }
@@ -238,8 +238,9 @@ int bridge_components(const Grid& grid, std::vector<std::uint32_t>& voxels) {
         }
       }
     }
-    std::sort(gaps.begin(), gaps.end(), [](const Gap& g, const Gap& h) { return g.key() < h.key(); });
-    for (const Gap& gap : gaps) {
+    for (const std::uint32_t g :
+         sorted_indices(gaps.size(), [&](std::uint32_t u, std::uint32_t v) { return gaps[u].key() < gaps[v].key(); })) {
+      const Gap& gap = gaps[g];
       if (!sets.join(part[gap.from], part[gap.to])) continue;
       lay_bridge(grid, grid.cell(voxels[gap.from]), grid.cell(voxels[gap.to]), filled);
       ++bridges;
@@ -248,7 +249,7 @@ int bridge_components(const Grid& grid, std::vector<std::uint32_t>& voxels) {
   }
 
   voxels.insert(voxels.end(), filled.begin(), filled.end());
-  std::sort(voxels.begin(), voxels.end());
+  sort(voxels, [](std::uint32_t u, std::uint32_t v) { return u < v; });
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return bridges;
 }

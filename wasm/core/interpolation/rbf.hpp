@@ -68,7 +68,7 @@ class RadialBasisInterpolant {
   Matrix places_;      // n×d, scaled
   Vector widths_;      // n, scaled
   Vector amplitudes_;  // n: factor of each kernel
-  Matrix cardinal_;    // n×(n+p): row k holds the coefficients of the k-th cardinal function
+  MatrixXd cardinal_;  // n×(n+p): row k holds the coefficients of the k-th cardinal function
   Vector query_;       // d: scratch
   Vector basis_;       // n+p: scratch
   double cardinal_error_ = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace handlebody {
 
@@ -14,8 +13,8 @@ constexpr std::size_t points_per_step = 1024;
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
-          std::string("The bake's ") + name + " is " + std::to_string(value) + ".",
-          "Use a number from " + std::to_string(low) + " to " + std::to_string(high) + ".",
+          {"The bake's ", name, " is ", value, "."},
+          {"Use a number from ", low, " to ", high, "."},
           HB_CULPRIT_OPTION};
 }
 
@@ -78,18 +77,16 @@ Result<Done> Bake::voxelize_slab() {
 
 Result<Done> Bake::make_domain() {
   if (inside_.empty()) {
-    return Error{HB_ERROR_MESH_NO_INTERIOR,
-                 "No voxel of the " + std::to_string(options_.resolution) + "-voxel grid lies inside the model.",
-                 "Close the surface if it is an open sheet, or raise the resolution if the model is thin."};
+    return Error(HB_ERROR_MESH_NO_INTERIOR, {"No voxel of the ", options_.resolution, "-voxel grid lies inside the model."},
+                 {"Close the surface if it is an open sheet, or raise the resolution if the model is thin."});
   }
   std::vector<std::uint32_t> unbridged = inside_;
   bridge_components(grid_, inside_);
   const double bytes = static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * (sizeof(float) + sizeof(std::uint16_t));
   if (bytes > 2e9) {
-    return Error{HB_ERROR_OUT_OF_MEMORY,
-                 std::to_string(options_.centers) + " centers × " + std::to_string(inside_.size()) + " voxels would take " +
-                     std::to_string(static_cast<int>(bytes / 1e6)) + " MB.",
-                 "Use fewer centers or a coarser resolution."};
+    return Error(HB_ERROR_OUT_OF_MEMORY,
+                 {options_.centers, " centers × ", inside_.size(), " voxels would take ", static_cast<int>(bytes / 1e6), " MB."},
+                 {"Use fewer centers or a coarser resolution."});
   }
   // A bridge runs outside the surface: no sphere may sit there.
   on_bridge_.resize(inside_.size());

@@ -63,7 +63,7 @@ class Bake {
   Phase phase_ = Phase::voxelize;
   int slab_ = 0;
   std::vector<std::uint32_t> inside_;
-  std::vector<bool> on_bridge_;
+  std::vector<std::uint8_t> on_bridge_;
   std::vector<double> surface_distance_;
   InteriorSamples samples_;  // of the welded vertices
   std::optional<FastMarching> marching_;

@@ -1,7 +1,6 @@
 #include "core/irbf/body.hpp"
 
 #include <cmath>
-#include <string>
 
 namespace handlebody {
 
@@ -11,8 +10,8 @@ constexpr Index most_vertices = 4'000'000;
 constexpr Index most_triangles = 8'000'000;
 constexpr Index fewest_vertices = 4;  // the corners of the smallest volume
 
-Error invalid_body(const std::string& message) {
-  return {HB_ERROR_BODY_INVALID, message, "Bake the model again with this version."};
+Error invalid_body(std::initializer_list<Word> message) {
+  return {HB_ERROR_BODY_INVALID, message, {"Bake the model again with this version."}};
 }
 
 }  // namespace
@@ -27,41 +26,40 @@ Vector3 Body::center_position(Index center) const {
 
 Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles) {
   if (positions.rows() > most_vertices || triangles.rows() > most_triangles) {
-    return Error{HB_ERROR_MESH_TOO_LARGE,
-                 "The mesh has " + std::to_string(positions.rows()) + " vertices and " + std::to_string(triangles.rows()) +
-                     " triangles; the solver takes up to 4 million and 8 million.",
-                 "Simplify the mesh first."};
+    return Error(HB_ERROR_MESH_TOO_LARGE,
+                 {"The mesh has ", positions.rows(), " vertices and ", triangles.rows(),
+                  " triangles; the solver takes up to 4 million and 8 million."},
+                 {"Simplify the mesh first."});
   }
   if (positions.rows() < fewest_vertices) {
-    return Error{HB_ERROR_MESH_TOO_FEW_VERTICES,
-                 "The mesh has " + std::to_string(positions.rows()) + (positions.rows() == 1 ? " vertex" : " vertices") +
-                     "; a volume needs at least four.",
-                 "Give a closed triangle mesh."};
+    return Error(
+        HB_ERROR_MESH_TOO_FEW_VERTICES,
+        {"The mesh has ", positions.rows(), (positions.rows() == 1 ? " vertex" : " vertices"), "; a volume needs at least four."},
+        {"Give a closed triangle mesh."});
   }
   for (Index v = 0; v < positions.rows(); ++v) {
     if (positions.row(v).allFinite()) continue;
-    return Error{HB_ERROR_MESH_NOT_FINITE, "Vertex " + std::to_string(v) + " has a coordinate that is not a finite number.",
-                 "Repair or remove that vertex and export the model again.", HB_CULPRIT_VERTEX, v};
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"Vertex ", v, " has a coordinate that is not a finite number."},
+                 {"Repair or remove that vertex and export the model again."}, HB_CULPRIT_VERTEX, v);
   }
   if (triangles.rows() == 0) {
-    return Error{HB_ERROR_MESH_NO_TRIANGLES, "The mesh has no triangles, so it encloses no volume.",
-                 "Give a triangle mesh; lines and loose points cannot be deformed."};
+    return Error(HB_ERROR_MESH_NO_TRIANGLES, {"The mesh has no triangles, so it encloses no volume."},
+                 {"Give a triangle mesh; lines and loose points cannot be deformed."});
   }
   for (Index t = 0; t < triangles.rows(); ++t) {
     const std::uint32_t highest = triangles.row(t).maxCoeff();
     if (static_cast<Index>(highest) < positions.rows()) continue;
-    return Error{HB_ERROR_MESH_INDEX_OUT_OF_RANGE,
-                 "Triangle " + std::to_string(t) + " uses vertex " + std::to_string(highest) + ", but there are only " +
-                     std::to_string(positions.rows()) + ".",
-                 "Export the model again; its index list does not fit its vertices.", HB_CULPRIT_TRIANGLE, t};
+    return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE,
+                 {"Triangle ", t, " uses vertex ", highest, ", but there are only ", positions.rows(), "."},
+                 {"Export the model again; its index list does not fit its vertices."}, HB_CULPRIT_TRIANGLE, t);
   }
   const double diagonal = normalize(positions).diagonal;
   // Squares of coordinates must neither overflow nor vanish.
   if (!(diagonal < 1e150)) {
-    return Error{HB_ERROR_MESH_NOT_FINITE, "The model's coordinates are too large to compute with.", "Scale the model down."};
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"The model's coordinates are too large to compute with."}, {"Scale the model down."});
   }
   if (!(diagonal > 1e-150)) {
-    return Error{HB_ERROR_MESH_ZERO_EXTENT, "All vertices of the mesh coincide.", "Give a mesh with some extent."};
+    return Error(HB_ERROR_MESH_ZERO_EXTENT, {"All vertices of the mesh coincide."}, {"Give a mesh with some extent."});
   }
   return Done{};
 }
@@ -76,24 +74,23 @@ Result<Done> check_body(const Body& body) {
   if (auto checked = check_mesh(body.positions, body.triangles); !checked) return checked.error();
   const Normalization& normalization = body.normalization;
   if (!normalization.center.allFinite() || !std::isfinite(normalization.diagonal) || normalization.diagonal <= 0) {
-    return invalid_body("The baked body's normalization is not a finite center and a positive diagonal.");
+    return invalid_body({"The baked body's normalization is not a finite center and a positive diagonal."});
   }
   if (body.centers.empty() || body.domain.size() == 0 || body.spheres.empty()) {
-    return invalid_body("The baked body has no centers, no voxels or no spheres.");
+    return invalid_body({"The baked body has no centers, no voxels or no spheres."});
   }
   for (std::size_t c = 0; c < body.centers.size(); ++c) {
     if (static_cast<Index>(body.centers[c]) < body.positions.rows()) continue;
-    return invalid_body("Center " + std::to_string(c) + " of the baked body is vertex " + std::to_string(body.centers[c]) +
-                        ", which the mesh does not have.");
+    return invalid_body({"Center ", c, " of the baked body is vertex ", body.centers[c], ", which the mesh does not have."});
   }
   if (body.distances.size() != body.centers.size() * body.domain.voxels().size() || !std::isfinite(body.distance_scale) ||
       body.distance_scale <= 0) {
-    return invalid_body("The baked body's interior distances do not fit its centers and voxels.");
+    return invalid_body({"The baked body's interior distances do not fit its centers and voxels."});
   }
   for (std::size_t s = 0; s < body.spheres.size(); ++s) {
     const Sphere& sphere = body.spheres[s];
     if (sphere.center.allFinite() && std::isfinite(sphere.radius) && sphere.radius > 0) continue;
-    return invalid_body("Sphere " + std::to_string(s) + " of the baked body has no finite center and positive radius.");
+    return invalid_body({"Sphere ", s, " of the baked body has no finite center and positive radius."});
   }
   return Done{};
 }

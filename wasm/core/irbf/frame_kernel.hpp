@@ -1,6 +1,7 @@
 // The per-frame product: L x + t + Ψ a for every vertex, in SIMD float (paper 001, eq. (13)).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/numerics/types.hpp"
@@ -18,13 +19,16 @@ class FrameKernel {
   void apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, PointsF& displacement);
 
  private:
+  /** One number of eight vertices. A vector type of the compiler's (GCC's extension, which Clang shares) and not Eigen's: Eigen's
+   *  packets can only be had for the whole program, at twice the size. */
   static constexpr Index lanes = 8;
-  using Tile = Eigen::Array<float, lanes, 1>;
+  using Quad = float __attribute__((vector_size(16)));
+  using Tile = std::array<Quad, 2>;
 
   Index vertices_;
   Index centers_;
-  std::vector<Tile, Eigen::aligned_allocator<Tile>> positions_;  // 3 a tile: x, y, z
-  std::vector<Tile, Eigen::aligned_allocator<Tile>> psi_;        // centers a tile
+  std::vector<Tile> positions_;  // 3 a tile: x, y, z
+  std::vector<Tile> psi_;        // centers a tile
   PointsF coefficients_;
 };
 

@@ -1,10 +1,8 @@
 #include "core/irbf/irbf.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace handlebody {
@@ -24,7 +22,7 @@ Vector3 structure_point(const Vector3& center, double radius, Index i) {
 }
 
 Error invalid_option(const char* name, double value, const char* remedy) {
-  return {HB_ERROR_INVALID_OPTION, std::string("IRBF's ") + name + " is " + std::to_string(value) + ".", remedy, HB_CULPRIT_OPTION};
+  return {HB_ERROR_INVALID_OPTION, {"IRBF's ", name, " is ", value, "."}, {remedy}, HB_CULPRIT_OPTION};
 }
 
 /** Rows that handles add to Z: one for the position, three more edges for the rotation. */
@@ -60,11 +58,10 @@ Result<std::unique_ptr<Irbf>> Irbf::create(Body body, const IrbfOptions& options
   const double bytes = 4 * centers * static_cast<double>(body.positions.rows()) +
                        8 * (centers + 4) * (centers + 4 + 9 * spheres) + 8 * 9 * spheres * spheres;
   if (bytes > most_bytes) {
-    return Error{HB_ERROR_OUT_OF_MEMORY,
-                 "This body, with " + std::to_string(body.centers.size()) + " centers, " + std::to_string(body.spheres.size()) +
-                     " spheres and " + std::to_string(body.positions.rows()) + " vertices, would take " +
-                     std::to_string(static_cast<int>(bytes / 1e6)) + " MB.",
-                 "Bake it with fewer centers or spheres, or simplify the mesh."};
+    return Error(HB_ERROR_OUT_OF_MEMORY,
+                 {"This body, with ", body.centers.size(), " centers, ", body.spheres.size(), " spheres and ",
+                  body.positions.rows(), " vertices, would take ", static_cast<int>(bytes / 1e6), " MB."},
+                 {"Bake it with fewer centers or spheres, or simplify the mesh."});
   }
   std::unique_ptr<Irbf> irbf(new Irbf());
   irbf->options_ = options;
@@ -88,7 +85,7 @@ void Irbf::prepare_spheres() {
 
   edges_.resize(3 * spheres, 3);
   edge_scale_.resize(3 * spheres);
-  edge_rows_ = Matrix::Zero(3 * spheres, 4 + centers);
+  edge_rows_ = MatrixXd::Zero(3 * spheres, 4 + centers);
   for (Index row = 0; row < 3 * spheres; ++row) {
     const Vector3 edge = samples.point(2 * row + 1) - samples.point(2 * row);
     // Eq. (8) squares a residual that is weighted by w = ‖e‖^α, so every row carries √w.
@@ -98,7 +95,8 @@ void Irbf::prepare_spheres() {
     edge_rows_.row(row).head<3>() = root * edge;
     edge_rows_.row(row).tail(centers) = root * (phi.row(2 * row + 1) - phi.row(2 * row));
   }
-  gram_.noalias() = edge_rows_.transpose() * edge_rows_;
+  gram_ = MatrixXd::Zero(4 + centers, 4 + centers);
+  add_gram(edge_rows_, gram_);
   gram_.diagonal().tail(centers).array() += options_.smoothness;
 
   rotations_.assign(static_cast<std::size_t>(spheres), Matrix3::Identity());
@@ -137,8 +135,8 @@ void Irbf::prepare_vertices() {
 
 Result<Points> Irbf::constraint_points(const ConstPoints& handles, const std::vector<HandleKind>& kinds) const {
   if (handles.rows() > most_handles) {
-    return Error{HB_ERROR_INVALID_OPTION, std::to_string(handles.rows()) + " handles were given; the solver takes up to 1024.",
-                 "Use fewer handles."};
+    return Error(HB_ERROR_INVALID_OPTION, {handles.rows(), " handles were given; the solver takes up to 1024."},
+                 {"Use fewer handles."});
   }
   Index count = handles.rows();
   for (const HandleKind kind : kinds) count += kind == HandleKind::rotation ? 6 : 0;
@@ -146,14 +144,14 @@ Result<Points> Irbf::constraint_points(const ConstPoints& handles, const std::ve
   Index row = 0;
   for (Index k = 0; k < handles.rows(); ++k) {
     if (!handles.row(k).allFinite()) {
-      return Error{HB_ERROR_HANDLE_NOT_FINITE, "Handle " + std::to_string(k) + " has a coordinate that is not a finite number.",
-                   "Give x, y and z as ordinary numbers.", HB_CULPRIT_HANDLE, k};
+      return Error(HB_ERROR_HANDLE_NOT_FINITE, {"Handle ", k, " has a coordinate that is not a finite number."},
+                   {"Give x, y and z as ordinary numbers."}, HB_CULPRIT_HANDLE, k);
     }
     const Vector3 point = body_.normalization.to_solver(handles.row(k).transpose());
     // The surface itself counts as inside, and so does what a voxel blurs.
     if (std::abs(surface_->winding_number(point)) <= 0.5 && surface_->distance(point) > body_.domain.grid().spacing) {
-      return Error{HB_ERROR_HANDLE_OUTSIDE, "Handle " + std::to_string(k) + " lies outside the model.",
-                   "Put it on a vertex or at a point inside the surface.", HB_CULPRIT_HANDLE, k};
+      return Error(HB_ERROR_HANDLE_OUTSIDE, {"Handle ", k, " lies outside the model."},
+                   {"Put it on a vertex or at a point inside the surface."}, HB_CULPRIT_HANDLE, k);
     }
     points.row(row++) = point;
     if (kinds[static_cast<std::size_t>(k)] != HandleKind::rotation) continue;
@@ -162,14 +160,14 @@ Result<Points> Irbf::constraint_points(const ConstPoints& handles, const std::ve
   return points;
 }
 
-Matrix Irbf::constraint_rows(const Points& points, const std::vector<HandleKind>& kinds) const {
+MatrixXd Irbf::constraint_rows(const Points& points, const std::vector<HandleKind>& kinds) const {
   const Index centers = basis_->size();
   InteriorSamples samples;
   for (Index i = 0; i < points.rows(); ++i) samples.add(body_.domain, points.row(i).transpose());
   Matrix phi(points.rows(), centers);
   basis_->evaluate<double>(samples, phi);
 
-  Matrix rows = Matrix::Zero(constraint_count(kinds), 4 + centers);
+  MatrixXd rows = MatrixXd::Zero(constraint_count(kinds), 4 + centers);
   const double mu = options_.anchor_weight;
   Index row = 0, point = 0;
   for (const HandleKind kind : kinds) {
@@ -203,15 +201,18 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   }
   if (!kinds.empty()) {
     next.rows = constraint_rows(next.points, kinds);
-    const Eigen::LLT<Eigen::MatrixXd> factor(gram_ + next.rows.transpose() * next.rows);
-    if (factor.info() != Eigen::Success) {
-      return Error{HB_ERROR_INTERNAL, "The system of handles and spheres is not positive definite.",
-                   "Raise the smoothness, or move handles apart."};
+    MatrixXd factor = gram_;
+    add_gram(next.rows, factor);
+    if (!factor_cholesky(factor)) {
+      return Error(HB_ERROR_INTERNAL, {"The system of handles and spheres is not positive definite."},
+                   {"Raise the smoothness, or move handles apart."});
     }
-    Eigen::MatrixXd transposed(4 + basis_->size(), edge_rows_.rows() + next.rows.rows());
-    transposed << edge_rows_.transpose(), next.rows.transpose();
-    next.inverse = factor.solve(transposed);
-    next.reduced.noalias() = edge_rows_ * next.inverse;
+    MatrixXd solved(edge_rows_.rows() + next.rows.rows(), edge_rows_.cols());
+    solved.topRows(edge_rows_.rows()) = edge_rows_;
+    solved.bottomRows(next.rows.rows()) = next.rows;
+    solve_cholesky(factor, solved);
+    next.inverse = solved.transpose();
+    next.reduced = product(edge_rows_, next.inverse);
   }
   handles_ = std::move(next);
 
@@ -242,18 +243,17 @@ Result<Done> Irbf::read_targets() {
     const bool finite = rotates ? target.allFinite() && rotation.norm() > 1e-9 : target.head<3>().allFinite();
     // A target far beyond any screen is a slip too, and its squares would overflow below.
     if (!finite || (target.head<3>() - body_.normalization.center).norm() > 1e6 * body_.normalization.diagonal) {
-      return Error{HB_ERROR_TARGET_NOT_FINITE,
-                   "The target of handle " + std::to_string(k) + (finite ? " is a million model sizes away." : " is not a finite number."),
-                   "Give a position near the model and, for rotation handles, a unit quaternion and finite scales.",
-                   HB_CULPRIT_HANDLE, k};
+      return Error(HB_ERROR_TARGET_NOT_FINITE,
+                   {"The target of handle ", k, (finite ? " is a million model sizes away." : " is not a finite number.")},
+                   {"Give a position near the model and, for rotation handles, a unit quaternion and finite scales."},
+                   HB_CULPRIT_HANDLE, k);
     }
     const Index other = handles_.same_as[static_cast<std::size_t>(k)];
     if (other >= 0) {
       const Eigen::Map<const Vector3> wanted(targets_.data() + other * target_size);
       if ((wanted - target.head<3>()).norm() > same_place * body_.normalization.diagonal) {
-        return Error{HB_ERROR_HANDLE_CONFLICT,
-                     "Handles " + std::to_string(other) + " and " + std::to_string(k) + " sit on one point but have different targets.",
-                     "Give both the same target, or remove one of them.", HB_CULPRIT_HANDLE, k};
+        return Error(HB_ERROR_HANDLE_CONFLICT, {"Handles ", other, " and ", k, " sit on one point but have different targets."},
+                     {"Give both the same target, or remove one of them."}, HB_CULPRIT_HANDLE, k);
       }
     }
     const Vector3 place = body_.normalization.to_solver(target.head<3>());
@@ -287,12 +287,6 @@ void Irbf::set_edge_targets(const std::vector<Matrix3>& rotations) {
     const Matrix3 turn = rotations[static_cast<std::size_t>(b)] - Matrix3::Identity();
     work_.right_hand_side.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
   }
-}
-
-/** Product with three columns, one after another: a matrix-vector product needs no temporary memory. */
-template <typename A, typename B, typename C>
-static void multiply(const A& matrix, const B& columns, C& out) {
-  for (Index axis = 0; axis < 3; ++axis) out.col(axis).noalias() = matrix * columns.col(axis);
 }
 
 /** Eq. (10) after a global step with the present right-hand side; leaves that step's solution in the workspace. */
@@ -334,7 +328,7 @@ double Irbf::largest_miss() const {
 
 Result<SolveReport> Irbf::solve(int max_iterations, double tolerance) {
   if (handle_count() == 0) {
-    return Error{HB_ERROR_HANDLES_MISSING, "There are no handles to solve for.", "Set at least one handle first."};
+    return Error(HB_ERROR_HANDLES_MISSING, {"There are no handles to solve for."}, {"Set at least one handle first."});
   }
   if (auto read = read_targets(); !read) return read.error();
 

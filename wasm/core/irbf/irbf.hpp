@@ -12,6 +12,7 @@
 #include "core/mesh/vertex_normals.hpp"
 #include "core/mesh/weld.hpp"
 #include "core/numerics/closest_rotation.hpp"
+#include "core/numerics/dense.hpp"
 #include "core/numerics/result.hpp"
 
 namespace handlebody {
@@ -70,21 +71,18 @@ class Irbf {
     std::vector<HandleKind> kinds;
     std::vector<Index> same_as;  // an earlier handle at the same point, or −1
     Points points;               // constraint points, solver space: a handle's own, then a rotation handle's six structure points
-    Matrix rows;                 // constraints × (4 + C): μ[s 1 φ(s)] and, for rotation handles, μ[e 0 Δφ]
-    Matrix inverse;              // Z†: (4 + C) × (3B + constraints)
-    Matrix reduced;              // edge_rows·Z†, the reduced iteration: 3B × (3B + constraints)
+    MatrixXd rows;               // constraints × (4 + C): μ[s 1 φ(s)] and, for rotation handles, μ[e 0 Δφ]
+    MatrixXd inverse;            // Z†: (4 + C) × (3B + constraints)
+    MatrixXd reduced;            // edge_rows·Z†, the reduced iteration: 3B × (3B + constraints)
   };
-
-  /** Three columns x, y, z, each contiguous, so that products with them need no memory. */
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
   /** What a solve writes to, taken once. */
   struct Workspace {
     Points targets, displacements;         // of the constraint points
-    Columns right_hand_side;               // 3B + constraints
-    Columns edges, previous;               // 3B
-    Columns solution;                      // 4 + C
-    Columns missed;                        // constraints
+    Columns3 right_hand_side;              // 3B + constraints
+    Columns3 edges, previous;              // 3B
+    Columns3 solution;                     // 4 + C
+    Columns3 missed;                       // constraints
     std::vector<Matrix3> rotations, warm;  // B
   };
 
@@ -92,7 +90,7 @@ class Irbf {
   void prepare_spheres();
   void prepare_vertices();
   Result<Points> constraint_points(const ConstPoints& handles, const std::vector<HandleKind>& kinds) const;
-  Matrix constraint_rows(const Points& points, const std::vector<HandleKind>& kinds) const;
+  MatrixXd constraint_rows(const Points& points, const std::vector<HandleKind>& kinds) const;
   Result<Done> read_targets();
   void set_constraint_targets();
   void set_edge_targets(const std::vector<Matrix3>& rotations);
@@ -107,9 +105,9 @@ class Irbf {
   double structure_radius_ = 0;  // of a rotation handle's six points
 
   Points edges_;      // 3B×3: √w e
-  Vector edge_scale_;  // 3B: 1/√w
-  Matrix edge_rows_;  // 3B × (4 + C): √w [e 0 Δφ]
-  Matrix gram_;       // edge_rowsᵀ edge_rows + λ on the coefficients
+  Vector edge_scale_;   // 3B: 1/√w
+  MatrixXd edge_rows_;  // 3B × (4 + C): √w [e 0 Δφ]
+  MatrixXd gram_;       // lower triangle: edge_rowsᵀ edge_rows + λ on the coefficients
 
   Weld weld_;
   Triangles welded_triangles_;

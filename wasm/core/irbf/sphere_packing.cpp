@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+
+#include "core/numerics/sort.hpp"
 
 namespace handlebody {
 namespace {
@@ -11,18 +12,15 @@ namespace {
 constexpr double tie = 1e-6;  // in spacings: distances that differ by rounding only are equal
 
 /** Voxels by falling surface distance; ties in voxel order, whatever the rounding. */
-std::vector<std::int32_t> largest_first(const std::vector<double>& surface_distance, double spacing) {
+Numbers largest_first(const std::vector<double>& surface_distance, double spacing) {
   std::vector<std::int64_t> keys(surface_distance.size());
   for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = std::llround(surface_distance[v] / (tie * spacing));
-  std::vector<std::int32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t u, std::int32_t v) { return keys[u] != keys[v] ? keys[u] > keys[v] : u < v; });
-  return order;
+  return sorted_indices(keys.size(),
+                        [&](std::uint32_t u, std::uint32_t v) { return keys[u] != keys[v] ? keys[u] > keys[v] : u < v; });
 }
 
 /** Marks the voxels whose centers lie in the sphere: no sphere that may only overlap in part can be centered there. */
-void cover(const VoxelDomain& domain, const Sphere& sphere, std::vector<bool>& covered) {
+void cover(const VoxelDomain& domain, const Sphere& sphere, std::vector<std::uint8_t>& covered) {
   const Grid& grid = domain.grid();
   std::array<int, 3> low{}, high{};
   for (int a = 0; a < 3; ++a) {
@@ -63,11 +61,11 @@ std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<do
   const std::vector<std::int32_t> component = face_components(domain);
   std::int64_t waiting =
       component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;  // parts without a sphere
-  std::vector<bool> served(static_cast<std::size_t>(waiting)), covered(component.size());
+  std::vector<std::uint8_t> served(static_cast<std::size_t>(waiting)), covered(component.size());
   const double min_radius = options.min_radius * domain.grid().spacing;
 
   std::vector<Sphere> spheres;
-  for (const std::int32_t v : largest_first(surface_distance, domain.grid().spacing)) {
+  for (const std::uint32_t v : largest_first(surface_distance, domain.grid().spacing)) {
     const Sphere sphere{domain.center(v), options.shrink * surface_distance[v]};
     const bool first_of_part = !served[component[v]];
     const bool room = static_cast<std::int64_t>(spheres.size()) + waiting < options.max_spheres && sphere.radius >= min_radius;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+
+#include "core/numerics/sort.hpp"
 
 namespace handlebody {
 namespace {
@@ -54,43 +57,59 @@ double triangle_distance2(const Vector3& point, const Vector3& a, const Vector3&
 
 }  // namespace
 
+void TriangleTree::Box::extend(const Vector3& point) {
+  low = low.cwiseMin(point);
+  high = high.cwiseMax(point);
+}
+
 TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles) {
   const auto count = static_cast<std::uint32_t>(triangles.rows());
   triangles_.reserve(count);
   for (Index t = 0; t < triangles.rows(); ++t) {
     const Vector3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)), c = positions.row(triangles(t, 2));
     const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    triangles_.push_back({a, b, c, static_cast<std::uint32_t>(t), (b - a).cross(c - a).norm() <= flat_tolerance * longest2});
+    triangles_.push_back({a, b, c, (b - a).cross(c - a).norm() <= flat_tolerance * longest2});
   }
-  if (count > 0) build(0, count);
+  if (count == 0) return;
+  Numbers order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  arrange(order.data(), order.data() + count);
+  std::vector<Triangle> arranged;
+  arranged.reserve(count);
+  for (const std::uint32_t t : order) arranged.push_back(triangles_[t]);
+  triangles_.swap(arranged);
+  build(0, count);
 }
 
-/** Splits the triangles [first, last) at the median of their centroids along the longest axis, which bounds the depth by log₂ n. */
+/** Splits the triangles at the median of their centroids along the longest axis, which bounds the depth by log₂ n, and so on down
+ *  to the leaves. Equal centroids keep their order, so that every compiler builds one tree. */
+void TriangleTree::arrange(std::uint32_t* first, std::uint32_t* last) const {
+  if (last - first <= std::ptrdiff_t{leaf_size}) return;
+  Box box{triangles_[*first].centroid3(), triangles_[*first].centroid3()};
+  for (const std::uint32_t* t = first; t != last; ++t) box.extend(triangles_[*t].centroid3());
+  int axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  std::uint32_t* middle = first + (last - first) / 2;
+  split(first, middle, last, [&](std::uint32_t s, std::uint32_t t) {
+    const double u = triangles_[s].centroid3()[axis], v = triangles_[t].centroid3()[axis];
+    return u < v || (u == v && s < t);
+  });
+  arrange(first, middle);
+  arrange(middle, last);
+}
 void TriangleTree::build(std::uint32_t first, std::uint32_t last) {
-  const auto begin = triangles_.begin() + first, end = triangles_.begin() + last;
-  Vector3 low = begin->a, high = begin->a;
-  Vector3 low_centroid = Vector3::Constant(std::numeric_limits<double>::infinity()), high_centroid = -low_centroid;
-  for (auto t = begin; t != end; ++t) {
-    low = low.cwiseMin(t->a).cwiseMin(t->b).cwiseMin(t->c);
-    high = high.cwiseMax(t->a).cwiseMax(t->b).cwiseMax(t->c);
-    const Vector3 centroid = t->a + t->b + t->c;
-    low_centroid = low_centroid.cwiseMin(centroid);
-    high_centroid = high_centroid.cwiseMax(centroid);
+  Box box{triangles_[first].a, triangles_[first].a};
+  for (std::uint32_t i = first; i < last; ++i) {
+    for (const Vector3* corner : {&triangles_[i].a, &triangles_[i].b, &triangles_[i].c}) box.extend(*corner);
   }
   const std::size_t node = nodes_.size();
   const bool leaf = last - first <= leaf_size;
   nodes_.push_back({first, leaf ? last - first : 0, 0});
-  boxes_.push_back({low, high});
+  boxes_.push_back(box);
   expansions_.push_back(expand(first, last));
 
   if (!leaf) {
-    int axis = 0;
-    (high_centroid - low_centroid).maxCoeff(&axis);
-    const std::uint32_t middle = first + (last - first) / 2;
-    std::nth_element(begin, triangles_.begin() + middle, end, [axis](const Triangle& s, const Triangle& t) {
-      const double u = s.a[axis] + s.b[axis] + s.c[axis], v = t.a[axis] + t.b[axis] + t.c[axis];
-      return u < v || (u == v && s.index < t.index);
-    });
+    const std::uint32_t middle = first + (last - first) / 2;  // where arrange() split
     build(first, middle);
     build(middle, last);
   }

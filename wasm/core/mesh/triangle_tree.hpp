@@ -26,8 +26,8 @@ class TriangleTree {
  private:
   struct Triangle {
     Vector3 a, b, c;
-    std::uint32_t index;  // in the mesh; breaks ties, so that every compiler builds one tree
-    bool flat;            // no area worth the name: it has a distance but no solid angle
+    bool flat;                                       // no area worth the name: it has a distance but no solid angle
+    Vector3 centroid3() const { return a + b + c; }  // thrice the centroid
   };
 
   // Depth first: the left child of an inner node follows it, `skip` is the first node after its subtree.
@@ -38,6 +38,7 @@ class TriangleTree {
 
   struct Box {
     Vector3 low, high;
+    void extend(const Vector3& point);
     double distance2(const Vector3& point) const;
   };
 
@@ -51,6 +52,8 @@ class TriangleTree {
     std::array<double, 10> octupole;   // xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
     double operator()(const Vector3& offset, double length2) const;
   };
+
+  void arrange(std::uint32_t* first, std::uint32_t* last) const;
 
   void build(std::uint32_t first, std::uint32_t last);
   Expansion expand(std::uint32_t first, std::uint32_t last) const;

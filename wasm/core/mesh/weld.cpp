@@ -1,21 +1,17 @@
 #include "core/mesh/weld.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include "core/numerics/sort.hpp"
 
 namespace handlebody {
 
 Weld weld_vertices(const ConstPoints& positions) {
   const auto count = static_cast<std::uint32_t>(positions.rows());
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+  const Numbers order = sorted_indices(count, [&](std::uint32_t a, std::uint32_t b) {
     for (int axis = 0; axis < 3; ++axis) {
       if (positions(a, axis) != positions(b, axis)) return positions(a, axis) < positions(b, axis);
     }
     return a < b;
-  };
-  std::sort(order.begin(), order.end(), compare);
+  });
 
   // Within a run of equal positions the first is the lowest stored number.
   std::vector<std::uint32_t> first(count);

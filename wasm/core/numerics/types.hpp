@@ -11,6 +11,7 @@ using Index = Eigen::Index;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Vector = Eigen::VectorXd;
+using MatrixXd = Eigen::MatrixXd;  // column-major: see dense.hpp
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 namespace handlebody {
@@ -39,9 +38,8 @@ Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
     for (Index j = 0; j < i; ++j) {
       const double distance = (places.row(i) - places.row(j)).stableNorm();
       if (distance <= tolerance)
-        return Error{HB_ERROR_EXAMPLE_DUPLICATE,
-                     "Example " + std::to_string(i) + " is at the same place as example " + std::to_string(j) + ".",
-                     "Move one of the two, or remove it.", HB_CULPRIT_EXAMPLE, i};
+        return Error(HB_ERROR_EXAMPLE_DUPLICATE, {"Example ", i, " is at the same place as example ", j, "."},
+                     {"Move one of the two, or remove it."}, HB_CULPRIT_EXAMPLE, i);
       spacing[i] = std::min(spacing[i], distance);
       spacing[j] = std::min(spacing[j], distance);
     }
@@ -54,19 +52,20 @@ Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
 Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options) {
   const Index count = places.rows();
   if (count == 0 || places.cols() == 0)
-    return Error{HB_ERROR_EXAMPLES_TOO_FEW, "A pose space needs at least one example.", "Give one or more examples with a place."};
+    return Error(HB_ERROR_EXAMPLES_TOO_FEW, {"A pose space needs at least one example."},
+                 {"Give one or more examples with a place."});
   for (Index i = 0; i < count; ++i)
     if (!places.row(i).allFinite())
-      return Error{HB_ERROR_EXAMPLE_NOT_FINITE, "The place of example " + std::to_string(i) + " is not finite.",
-                   "Remove NaN and infinite coordinates.", HB_CULPRIT_EXAMPLE, i};
+      return Error(HB_ERROR_EXAMPLE_NOT_FINITE, {"The place of example ", i, " is not finite."},
+                   {"Remove NaN and infinite coordinates."}, HB_CULPRIT_EXAMPLE, i);
   if (!(options.width >= 0) || !std::isfinite(options.width))
-    return Error{HB_ERROR_INVALID_OPTION, "The width is not a positive finite number.",
-                 "Give it in units of the places, or leave it out to have it chosen.", HB_CULPRIT_OPTION, -1};
+    return Error(HB_ERROR_INVALID_OPTION, {"The width is not a positive finite number."},
+                 {"Give it in units of the places, or leave it out to have it chosen."}, HB_CULPRIT_OPTION, -1);
   const bool normalized = options.method == PoseSpaceMethod::normalized;
   if (options.degree < (normalized ? -1 : 0) || options.degree > 1)
-    return Error{HB_ERROR_INVALID_OPTION, "The degree is not 0 or 1.",
-                 "Use 0, or 1 for weights that reproduce linear functions; without a tail weights would not sum to 1.",
-                 HB_CULPRIT_OPTION, -1};
+    return Error(HB_ERROR_INVALID_OPTION, {"The degree is not 0 or 1."},
+                 {"Use 0, or 1 for weights that reproduce linear functions; without a tail weights would not sum to 1."},
+                 HB_CULPRIT_OPTION, -1);
 
   RadialBasisOptions rbf;
   rbf.kernel = {options.kernel, options.width > 0 ? options.width : 1};
@@ -94,8 +93,8 @@ PoseSpace::PoseSpace(RadialBasisInterpolant rbf, const Eigen::Ref<const Matrix>&
 Result<Done> PoseSpace::weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out) {
   for (Index k = 0; k < query.size(); ++k)
     if (!std::isfinite(query[k]))
-      return Error{HB_ERROR_QUERY_NOT_FINITE, "Coordinate " + std::to_string(k) + " of the query is not finite.",
-                   "Ask for weights at finite coordinates."};
+      return Error(HB_ERROR_QUERY_NOT_FINITE, {"Coordinate ", k, " of the query is not finite."},
+                   {"Ask for weights at finite coordinates."});
   query_ = query / 2 - center_ / 2;
   const double half_distance = query_.stableNorm();
   if (half_distance > reach_ / 2)

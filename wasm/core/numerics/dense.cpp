@@ -1,0 +1,129 @@
+// Compiled for speed: see CMakeLists.txt.
+#include "core/numerics/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handlebody {
+namespace {
+
+/** y += sign · Σ x[k·step] · columns.col(k), four columns a pass over y. */
+void add_columns(double* __restrict y, Index rows, const double* __restrict columns, Index stride, const double* __restrict x,
+                 Index step, Index count, double sign) {
+  Index k = 0;
+  for (; k + 4 <= count; k += 4, columns += 4 * stride, x += 4 * step) {
+    const double *c0 = columns, *c1 = c0 + stride, *c2 = c1 + stride, *c3 = c2 + stride;
+    const double x0 = sign * x[0], x1 = sign * x[step], x2 = sign * x[2 * step], x3 = sign * x[3 * step];
+    for (Index i = 0; i < rows; ++i) y[i] += (x0 * c0[i] + x1 * c1[i]) + (x2 * c2[i] + x3 * c3[i]);
+  }
+  for (; k < count; ++k, columns += stride, x += step) {
+    const double x0 = sign * x[0];
+    for (Index i = 0; i < rows; ++i) y[i] += x0 * columns[i];
+  }
+}
+
+}  // namespace
+
+void multiply(const MatrixXd& a, const Columns3& x, Columns3& out) {
+  out.setZero();
+  const Index rows = a.rows(), count = a.cols();
+  double* __restrict ox = out.data(), * __restrict oy = ox + rows, * __restrict oz = oy + rows;
+  const double* __restrict xx = x.data(), * __restrict xy = xx + count, * __restrict xz = xy + count;
+  const double* __restrict c0 = a.data();
+  // One pass over the matrix, which is what takes the time, serves all three.
+  Index k = 0;
+  for (; k + 2 <= count; k += 2, c0 += 2 * rows) {
+    const double* __restrict c1 = c0 + rows;
+    const double x0 = xx[k], x1 = xx[k + 1], y0 = xy[k], y1 = xy[k + 1], z0 = xz[k], z1 = xz[k + 1];
+    for (Index i = 0; i < rows; ++i) {
+      ox[i] += x0 * c0[i] + x1 * c1[i];
+      oy[i] += y0 * c0[i] + y1 * c1[i];
+      oz[i] += z0 * c0[i] + z1 * c1[i];
+    }
+  }
+  if (k == count) return;
+  for (Index i = 0; i < rows; ++i) {
+    ox[i] += xx[k] * c0[i];
+    oy[i] += xy[k] * c0[i];
+    oz[i] += xz[k] * c0[i];
+  }
+}
+
+void multiply(const MatrixXd& a, const Vector& x, Eigen::Ref<Vector> out) {
+  out.setZero();
+  add_columns(out.data(), a.rows(), a.data(), a.rows(), x.data(), 1, a.cols(), 1);
+}
+
+MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
+  MatrixXd out = MatrixXd::Zero(a.rows(), b.cols());
+  for (Index j = 0; j < b.cols(); ++j) add_columns(&out(0, j), a.rows(), a.data(), a.rows(), &b(0, j), 1, a.cols(), 1);
+  return out;
+}
+
+void add_gram(const MatrixXd& b, MatrixXd& a) {
+  const MatrixXd transposed = b.transpose();
+  const Index n = a.rows();
+  for (Index j = 0; j < n; ++j) add_columns(&a(j, j), n - j, &transposed(j, 0), n, &transposed(j, 0), n, b.rows(), 1);
+}
+
+bool factor_cholesky(MatrixXd& a) {
+  const Index n = a.rows();
+  for (Index j = 0; j < n; ++j) {
+    add_columns(&a(j, j), n - j, &a(j, 0), n, &a(j, 0), n, j, -1);
+    const double pivot = a(j, j);
+    if (!(pivot > 0)) return false;
+    a.col(j).tail(n - j) /= std::sqrt(pivot);
+  }
+  return true;
+}
+
+void solve_cholesky(const MatrixXd& factor, MatrixXd& b) {
+  const Index n = factor.rows(), rows = b.rows();
+  for (Index j = 0; j < n; ++j) {  // b ← b L⁻ᵀ
+    add_columns(&b(0, j), rows, &b(0, 0), rows, &factor(j, 0), n, j, -1);
+    b.col(j) /= factor(j, j);
+  }
+  for (Index j = n; j-- > 0;) {  // b ← b L⁻¹
+    add_columns(&b(0, j), rows, b.data() + rows * (j + 1), rows, factor.data() + n * j + j + 1, 1, n - 1 - j, -1);
+    b.col(j) /= factor(j, j);
+  }
+}
+
+void factor_lu(MatrixXd& a, std::vector<Index>& pivots) {
+  constexpr Index width = 16;  // columns a panel
+  const Index n = a.rows();
+  pivots.resize(static_cast<std::size_t>(n));
+  // What the columns from `first` on, factored up to `done`, do to column j.
+  const auto eliminate = [&](Index first, Index done, Index j) {
+    for (Index k = first; k < done; ++k) add_columns(&a(k, j) + 1, done - 1 - k, &a(k, k) + 1, n, &a(k, j), 1, 1, -1);
+    add_columns(a.data() + n * j + done, n - done, a.data() + n * first + done, n, &a(first, j), 1, done - first, -1);
+  };
+  for (Index first = 0; first < n; first += width) {
+    const Index last = std::min(first + width, n);
+    for (Index j = first; j < last; ++j) {
+      eliminate(first, j, j);
+      Index pivot = j;
+      for (Index i = j + 1; i < n; ++i) {
+        if (std::abs(a(i, j)) > std::abs(a(pivot, j))) pivot = i;
+      }
+      pivots[static_cast<std::size_t>(j)] = pivot;
+      for (Index k = 0; k < n; ++k) std::swap(a(j, k), a(pivot, k));
+      for (Index i = j + 1; i < n; ++i) a(i, j) /= a(j, j);
+    }
+    for (Index j = last; j < n; ++j) eliminate(first, last, j);
+  }
+}
+
+void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd& b) {
+  const Index n = factor.rows(), rows = b.rows();
+  for (Index j = 0; j < n; ++j) {  // b ← b U⁻¹
+    add_columns(&b(0, j), rows, b.data(), rows, &factor(0, j), 1, j, -1);
+    b.col(j) /= factor(j, j);
+  }
+  for (Index j = n; j-- > 0;) {  // b ← b L⁻¹
+    add_columns(&b(0, j), rows, b.data() + rows * (j + 1), rows, factor.data() + n * j + j + 1, 1, n - 1 - j, -1);
+  }
+  for (Index j = n; j-- > 0;) b.col(j).swap(b.col(pivots[static_cast<std::size_t>(j)]));
+}
+
+}  // namespace handlebody
