@@ -67,7 +67,7 @@ bool inside_hull(const Matrix& places, const Eigen::Vector2d& q) {
 
 Error error_of(const Matrix& places, const PoseSpaceOptions& options = {}) {
   auto space = PoseSpace::create(places, options);
-  if (space) return {HB_OK, "", "", HB_CULPRIT_NONE, -1};
+  if (space) return {HB_OK, {}, {}};
   CHECK(!space.error().message.empty());
   CHECK(!space.error().remedy.empty());
   return space.error();

@@ -154,7 +154,7 @@ describe('evaluate', () => {
     using space = hb.poseSpace({ dimensions, examples });
     const before = space.evaluate([0.3, 0.3]);
     const size = hb.memory;
-    const many = Array.from({ length: 900 }, (_, k) => ({ name: `${k}`, at: [Math.cos(k), Math.sin(k * k)], shape: [] }));
+    const many = Array.from({ length: 1100 }, (_, k) => ({ name: `${k}`, at: [Math.cos(k), Math.sin(k * k)], shape: [] }));
     using _large = hb.poseSpace({ dimensions, examples: many });
     expect(hb.memory).toBeGreaterThan(size);
     expect(space.evaluate([0.3, 0.3])).toEqual(before);

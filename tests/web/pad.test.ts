@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { difference, frames, launch, PHONE, picture, soon, swipe, visit } from './support/studio.ts';
+import { difference, frames, launch, PHONE, picture, soon, specks, swipe, visit } from './support/studio.ts';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -31,6 +31,21 @@ describe('the emotion pad', () => {
     expect(await place(page)).toBe('valence 0.00, arousal 0.00, neutral');
     expect(await page.locator('.sum').textContent()).toBe('sum 1.00');
     expect(said).toEqual([]);
+  });
+
+  it('shows no speck of eyes or teeth through the skin', async () => {
+    const { page } = await visit(browser, { hash: '#face', reducedMotion: 'reduce', viewport: { width: 1280, height: 800 } });
+    for (const [valence, arousal] of [
+      [0.83, 0.53],
+      [-0.34, 0.64],
+      [-0.65, -0.27],
+    ]) {
+      await page.getByLabel('Valence').fill(String(valence));
+      await page.getByLabel('Arousal').fill(String(arousal));
+      await frames(page, 3);
+      // Tips of lashes are single pixels too, and belong there.
+      expect(specks(await picture(page)).filter(([, y]) => y < 285 || y > 350)).toEqual([]);
+    }
   });
 
   it('follows the puck, snaps to a clicked dot, comes back by Esc and by reset', async () => {

@@ -57,6 +57,29 @@ describe.each([
   });
 });
 
+it.each([
+  ['desktop', {}],
+  ['phone', PHONE],
+])('%s: nothing lies over the invitation', async (_, look) => {
+  const { page } = await visit(browser, look);
+  const [label, ...others] = await page.evaluate(() => {
+    const handle = document.querySelector('.handle[data-invites]') as HTMLElement;
+    const box = handle.getBoundingClientRect();
+    const { top, left, width, height } = getComputedStyle(handle, '::after');
+    const [x, y] = [box.x + Number.parseFloat(left) - Number.parseFloat(width) / 2, box.y + Number.parseFloat(top)];
+    const rest = ['.readout', '.camera-tools'].map((name) => document.querySelector(name)?.getBoundingClientRect() as DOMRect);
+    return [new DOMRect(x, y, Number.parseFloat(width), Number.parseFloat(height)), ...rest].map((r) => r.toJSON() as DOMRect);
+  });
+  for (const other of others) {
+    const apart =
+      (label as DOMRect).right <= other.left ||
+      (label as DOMRect).left >= other.right ||
+      (label as DOMRect).bottom <= other.top ||
+      (label as DOMRect).top >= other.bottom;
+    expect(apart).toBe(true);
+  }
+});
+
 describe('models', () => {
   it('come one after another and the address remembers', async () => {
     const { page, said } = await visit(browser);

@@ -1,17 +1,33 @@
 import { DirectionalLight, Group, HemisphereLight, Mesh, type Object3D, PlaneGeometry, ShadowMaterial, Vector3 } from 'three';
 
 const SHADOW_SIZE = 512;
+const UP = new Vector3(0, 1, 0);
 
-/** Soft daylight from above, a cool rim from behind, and a ground that only shows the shadow. */
+/** Where a lamp is, in radii about the model's middle, as the first view sees it: right, up, toward the viewer; and how bright. */
+type Lamp = readonly [right: number, up: number, near: number, intensity: number];
+
+interface Rig {
+  readonly sky: number;
+  readonly key: Lamp;
+  readonly fill: Lamp;
+  readonly rim: Lamp;
+}
+
+/** An animal stands in daylight that comes from high up, so that its shadow lies beneath it. */
+const DAYLIGHT: Rig = { sky: 2.6, key: [-0.9, 3.4, 1.5, 2.1], fill: [2, 0.8, 2.2, 0.9], rim: [1.2, 1.6, -2.6, 0.9] };
+/** A bust floats: a large soft window beside the viewer, and so much light from all around that no feature lies in the dark. */
+const PORTRAIT: Rig = { sky: 2.5, key: [1.5, 2, 2.5, 1.7], fill: [-2.2, 0.3, 2.4, 0.7], rim: [-1.6, 1.8, -2.4, 0.8] };
+
+/** A sky, a warm key, a fill without shadow, a cool rim from behind, and a ground that only shows the shadow. */
 export class StudioLight {
   readonly group = new Group();
-  readonly #key = new DirectionalLight(0xfff4e6, 1.9);
-  readonly #rim = new DirectionalLight(0xcfe0ff, 0.9);
+  readonly #sky = new HemisphereLight(0xf7faff, 0xd8cfc6);
+  readonly #key = new DirectionalLight(0xfff2e6);
+  readonly #fill = new DirectionalLight(0xfff8f2);
+  readonly #rim = new DirectionalLight(0xcfe0ff);
   readonly #ground: Mesh<PlaneGeometry, ShadowMaterial>;
 
   constructor() {
-    const sky = new HemisphereLight(0xf7faff, 0xc9bbae, 1.9);
-    this.#key.castShadow = true;
     this.#key.shadow.mapSize.set(SHADOW_SIZE, SHADOW_SIZE);
     this.#key.shadow.radius = 5;
     this.#key.shadow.bias = -0.0005;
@@ -19,29 +35,31 @@ export class StudioLight {
     this.#ground = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.22 }));
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
-    this.group.add(sky, this.#key, this.#key.target, this.#rim, this.#rim.target, this.#ground);
+    this.group.add(this.#sky, this.#ground);
+    for (const lamp of [this.#key, this.#fill, this.#rim]) this.group.add(lamp, lamp.target);
   }
 
-  /** Sizes everything for a model around `center` with this `radius`, standing at height `floor`, first seen from `azimuth` (radians). */
-  fit(center: Vector3, radius: number, floor: number, azimuth: number): void {
-    const from = (angle: number, across: number, up: number) =>
-      new Vector3(Math.sin(azimuth + angle) * across, up, Math.cos(azimuth + angle) * across).multiplyScalar(radius).add(center);
-    this.#key.position.copy(from(-0.5, 1.35, 3.4));
-    this.#key.target.position.copy(center);
-    this.#rim.position.copy(from(2.4, 3, 1.2));
-    this.#rim.target.position.copy(center);
+  /**
+   * Sizes everything for a model around `center` with this `radius`, first seen from `azimuth` (radians), that stands at height
+   * `floor`, or floats.
+   */
+  fit(center: Vector3, radius: number, azimuth: number, floor: number | undefined): void {
+    const rig = floor === undefined ? PORTRAIT : DAYLIGHT;
+    this.#sky.intensity = rig.sky;
+    for (const name of ['key', 'fill', 'rim'] as const) {
+      const lamp = { key: this.#key, fill: this.#fill, rim: this.#rim }[name];
+      const [right, up, near, intensity] = rig[name];
+      lamp.intensity = intensity;
+      lamp.position.set(right, up, near).applyAxisAngle(UP, azimuth).multiplyScalar(radius).add(center);
+      lamp.target.position.copy(center);
+    }
+    this.#key.castShadow = this.#ground.visible = floor !== undefined;
     const camera = this.#key.shadow.camera;
     const reach = radius * 1.7;
     Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: radius * 0.1, far: radius * 8 });
     camera.updateProjectionMatrix();
-    this.#ground.position.set(center.x, floor, center.z);
+    this.#ground.position.set(center.x, floor ?? 0, center.z);
     this.#ground.scale.setScalar(radius * 12);
-  }
-
-  /** A bust floats, an animal stands. */
-  set grounded(value: boolean) {
-    this.#ground.visible = value;
-    this.#key.castShadow = value;
   }
 
   /** Shadows on a dark floor need more ink to be seen. */

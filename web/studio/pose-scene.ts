@@ -1,5 +1,6 @@
 import type { Mesh, Object3D } from 'three';
 import type { Handlebody, PoseSpace } from '../../wasm/ts/index.ts';
+import { type Range, rangesOf, setInfluences } from './influences.ts';
 import { reducedMotion } from './motion.ts';
 import { PosePanel } from './pose-panel.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
@@ -30,6 +31,7 @@ export class PoseScene implements StudioScene {
   readonly #panel: PosePanel;
   readonly #weights: Float64Array;
   readonly #shape: Float64Array;
+  readonly #ranges: readonly Range[];
   readonly #to: [number, number] = [0, 0];
   readonly #at: [number, number] = [0, 0];
   readonly #step = (seconds: number) => this.#ease(seconds);
@@ -44,6 +46,7 @@ export class PoseScene implements StudioScene {
     });
     this.#weights = new Float64Array(examples.length);
     this.#shape = new Float64Array(examples[0]?.shape.length ?? 0);
+    this.#ranges = rangesOf(examples.map(({ shape }) => shape));
     options.object.traverse((part) => {
       const mesh = part as Mesh;
       if (mesh.isMesh && mesh.morphTargetInfluences) this.#meshes.push(mesh);
@@ -105,7 +108,7 @@ export class PoseScene implements StudioScene {
       return false;
     }
     for (const { morphTargetInfluences } of this.#meshes) {
-      for (let i = 0; i < (morphTargetInfluences?.length ?? 0); i++) (morphTargetInfluences as number[])[i] = this.#shape[i] ?? 0;
+      if (morphTargetInfluences) setInfluences(morphTargetInfluences, this.#shape, this.#ranges);
     }
     this.#panel.weigh(this.#weights);
     this.#options.view.changed();

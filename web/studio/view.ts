@@ -1,7 +1,7 @@
 import {
+  ACESFilmicToneMapping,
   Box3,
   MOUSE,
-  NeutralToneMapping,
   type Object3D,
   PerspectiveCamera,
   Scene,
@@ -16,6 +16,7 @@ import { disposeObject } from './dispose-object.ts';
 import { fitCamera } from './fit-camera.ts';
 import { StudioLight } from './light.ts';
 import { ease, onMotionChange, reducedMotion } from './motion.ts';
+import { settleDepth } from './settle-depth.ts';
 import { StudioError } from './studio-error.ts';
 
 /** Work to do before a frame is drawn: gets the seconds since the last one and says whether there is more to do in the next. */
@@ -56,7 +57,7 @@ export class View {
       );
     }
     this.#renderer = new WebGLRenderer({ ...attributes, canvas, context });
-    this.#renderer.toneMapping = NeutralToneMapping;
+    this.#renderer.toneMapping = ACESFilmicToneMapping;
     this.#renderer.shadowMap.enabled = true;
     this.#renderer.shadowMap.type = VSMShadowMap;
     this.#renderer.shadowMap.autoUpdate = false;
@@ -101,6 +102,7 @@ export class View {
     this.#object = object;
     this.#scene.add(object);
     this.light.castFrom(object);
+    settleDepth(object);
     this.changed();
   }
 
@@ -120,8 +122,7 @@ export class View {
     this.controls.minDistance = sphere.radius * 0.35;
     this.controls.maxDistance = sphere.radius * 14;
     this.#home = fitCamera(object, sphere.center, direction, this.camera);
-    this.light.fit(sphere.center, sphere.radius, box.min.y, azimuth);
-    this.light.grounded = grounded;
+    this.light.fit(sphere.center, sphere.radius, azimuth, grounded ? box.min.y : undefined);
     this.camera.position.copy(this.#home.position);
     this.controls.target.copy(this.#home.target);
     this.controls.update();

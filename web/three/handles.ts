@@ -42,7 +42,7 @@ interface Item {
  * Home puts a handle back, Delete removes or puts back.
  *
  * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side), `data-right`
- * (so far right that a label belongs on its left).
+ * (so far right that a label belongs on its left), `data-low` (so far down that a label belongs above it).
  *
  * ```ts
  * const handles = new HandleOverlay({ camera, container, onMove: (i, p) => p.toArray(irbf.targets, i * 10) });
@@ -151,6 +151,7 @@ export class HandleOverlay {
       const [x, y] = [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height];
       button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
       button.toggleAttribute('data-right', x > width * 0.6);
+      button.toggleAttribute('data-low', y > height * 0.8);
       // Nearer handles lie on top, within the overlay's own stacking context.
       button.style.zIndex = String(1 + Math.round((1 - p.z) * 10000));
     }

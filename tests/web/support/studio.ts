@@ -92,6 +92,36 @@ export function difference(a: PNG, b: PNG, threshold = 24): number {
   return count;
 }
 
+/** Single pixels that stand out of an even surface: [x, y] of each. */
+export function specks({ width, height, data }: PNG, threshold = 14): [number, number][] {
+  const ring = [
+    [3, 0],
+    [-3, 0],
+    [0, 3],
+    [0, -3],
+    [2, 2],
+    [-2, 2],
+    [2, -2],
+    [-2, -2],
+  ] as const;
+  const color = (x: number, y: number) => [0, 1, 2].map((k) => data[4 * (y * width + x) + k] ?? 0);
+  const found: [number, number][] = [];
+  for (let y = 3; y < height - 3; y++)
+    for (let x = 3; x < width - 3; x++) {
+      const around = ring.map(([dx, dy]) => color(x + dx, y + dy));
+      const here = color(x, y);
+      const [least, most] = [0, 1, 2].reduce(
+        ([low, high], k) => [
+          Math.max(low, Math.max(...around.map((c) => c[k] ?? 0)) - Math.min(...around.map((c) => c[k] ?? 0))),
+          Math.max(high, Math.min(...around.map((c) => Math.abs((here[k] ?? 0) - (c[k] ?? 0))))),
+        ],
+        [0, 0],
+      ) as [number, number];
+      if (least < threshold && most > threshold) found.push([x, y]);
+    }
+  return found;
+}
+
 export async function openFile(page: Page, name: string, content: Uint8Array | string): Promise<void> {
   await page.setInputFiles('#file', { name, mimeType: 'application/octet-stream', buffer: Buffer.from(content as Uint8Array) });
 }

@@ -4,12 +4,24 @@
 
 namespace handlebody {
 
+constexpr std::uint32_t unused = 0xffffffff;
+
 void InteriorSamples::add(const VoxelDomain& domain, const Vector3& point) {
   const Stencil stencil = make_stencil(domain, point);
   points_.push_back(point);
-  voxels_.insert(voxels_.end(), stencil.voxels.begin(), stencil.voxels.end());
-  weights_.insert(weights_.end(), stencil.weights.begin(), stencil.weights.end());
-  offsets_.push_back(voxels_.size());
+  slot_of_.resize(domain.voxels().size(), unused);
+  for (std::size_t k = 0; k < stencil.voxels.size(); ++k) {
+    const auto voxel = static_cast<std::uint32_t>(stencil.voxels[k]);
+    std::uint32_t& slot = slot_of_[voxel];
+    if (slot == unused) {
+      slot = static_cast<std::uint32_t>(voxels_.size());
+      voxels_.push_back(voxel);
+      places_.push_back(domain.center(stencil.voxels[k]));
+    }
+    slots_.push_back(slot);
+    weights_.push_back(stencil.weights[k]);
+  }
+  offsets_.push_back(slots_.size());
 }
 
 }  // namespace handlebody

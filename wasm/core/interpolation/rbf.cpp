@@ -111,7 +111,7 @@ Result<RadialBasisInterpolant> RadialBasisInterpolant::create(const Eigen::Ref<c
 
   // Unit box. Halving first keeps the extent of huge coordinates from overflowing.
   const Vector lower = places.colwise().minCoeff(), upper = places.colwise().maxCoeff();
-  const double diagonal = 2 * (upper / 2 - lower / 2).stableNorm();
+  const double diagonal = 2 * safe_norm(upper / 2 - lower / 2);
   rbf.center_ = upper / 2 + lower / 2;
   rbf.scale_ = diagonal > 0 ? 1 / diagonal : 1;
   if (!std::isfinite(diagonal) || !std::isfinite(rbf.scale_) || rbf.scale_ == 0)

@@ -148,7 +148,7 @@ void Bake::add_center() {
   for (const double distance : field_) fields_.push_back(static_cast<float>(distance));
 
   // The next center is the vertex that is farthest, inside the body, from all so far.
-  distance_ratios(body_.domain, center, [&](std::size_t v) { return field_[v]; }, ratios_);
+  samples_.distance_ratios(center, [&](std::uint32_t v) { return field_[v]; }, ratios_);
   Index farthest = 0;
   for (Index v = 0; v < samples_.size(); ++v) {
     double& coverage = coverage_[static_cast<std::size_t>(v)];

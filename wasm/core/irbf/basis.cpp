@@ -7,13 +7,14 @@
 namespace handlebody {
 
 template <typename Visit>
-void Basis::for_each_center(const Visit& visit) const {
+void Basis::for_each_center(const InteriorSamples& samples, const Visit& visit) const {
   std::vector<double> ratios;
   const std::size_t voxels = body_->domain.voxels().size();
   for (Index c = 0; c < size(); ++c) {
     const std::uint16_t* codes = body_->distances.data() + static_cast<std::size_t>(c) * voxels;
     const Vector3 center = body_->center_position(c);
-    distance_ratios(body_->domain, center, [&](std::size_t v) { return body_->distance_scale * codes[v]; }, ratios);
+    samples.distance_ratios(
+        center, [&](std::uint32_t v) { return body_->distance_scale * codes[v]; }, ratios);
     visit(c, center, ratios);
   }
 }
@@ -22,7 +23,7 @@ Basis::Basis(const Body& body, KernelKind kind, double relative_width) : body_(&
   InteriorSamples centers;
   for (Index c = 0; c < size(); ++c) centers.add(body.domain, body.center_position(c));
   Vector nearest = Vector::Constant(size(), std::numeric_limits<double>::infinity());
-  for_each_center([&](Index c, const Vector3& center, const std::vector<double>& ratios) {
+  for_each_center(centers, [&](Index c, const Vector3& center, const std::vector<double>& ratios) {
     for (Index other = 0; other < size(); ++other) {
       if (other != c) nearest(other) = std::min(nearest(other), centers.distance(ratios, center, other));
     }
@@ -33,7 +34,7 @@ Basis::Basis(const Body& body, KernelKind kind, double relative_width) : body_(&
 template <typename Scalar>
 void Basis::evaluate(const InteriorSamples& samples,
                      Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> phi) const {
-  for_each_center([&](Index c, const Vector3& center, const std::vector<double>& ratios) {
+  for_each_center(samples, [&](Index c, const Vector3& center, const std::vector<double>& ratios) {
     for (Index i = 0; i < samples.size(); ++i) phi(i, c) = static_cast<Scalar>(kernel_(samples.distance(ratios, center, i)));
   });
   for (Index i = 0; i < samples.size(); ++i) {

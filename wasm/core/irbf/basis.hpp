@@ -23,9 +23,9 @@ class Basis {
                 Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> phi) const;
 
  private:
-  /** Calls visit(c, center, ratios) for every center with the ratios of its field. */
+  /** Calls visit(c, center, ratios) for every center with the ratios of its field at the samples' voxels. */
   template <typename Visit>
-  void for_each_center(const Visit& visit) const;
+  void for_each_center(const InteriorSamples& samples, const Visit& visit) const;
 
   const Body* body_;
   Kernel kernel_;

@@ -1,4 +1,4 @@
-// Compiled for speed: see CMakeLists.txt.
+// Compiled with -O3: see CMakeLists.txt.
 #include "core/irbf/frame_kernel.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const
       out[1] = lane < 4 ? y0[lane] : y1[lane - 4];
       out[2] = lane < 4 ? z0[lane] : z1[lane - 4];
     }
-}
+  }
 }
 
 }  // namespace handlebody

@@ -1,4 +1,4 @@
-// Compiled for speed: see CMakeLists.txt.
+// Compiled with -O3: see CMakeLists.txt.
 #include "core/numerics/closest_rotation.hpp"
 
 #include <Eigen/Geometry>

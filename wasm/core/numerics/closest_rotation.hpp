@@ -5,8 +5,8 @@
 
 namespace handlebody {
 
-/** The R in SO(3) that maximizes tr(Rᵀ H), for H = Σ wᵢ e′ᵢ eᵢᵀ: it takes the eᵢ closest to the e′ᵢ, reflections excluded. Where H does
- *  not determine R (rank below 2) the answer is some rotation that attains the maximum. */
+/** The R in SO(3) that maximizes tr(Rᵀ H), for H = Σ wᵢ e′ᵢ eᵢᵀ: it takes the eᵢ closest to the e′ᵢ, reflections excluded. Where H
+ * does not determine R (rank below 2) the answer is some rotation that attains the maximum. */
 Matrix3 closest_rotation(const Matrix3& covariance);
 
 /** A rigid motion x ↦ rotation·(x − from) + to. */

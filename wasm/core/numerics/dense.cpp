@@ -1,4 +1,4 @@
-// Compiled for speed: see CMakeLists.txt.
+// Compiled with -O3: see CMakeLists.txt.
 #include "core/numerics/dense.hpp"
 
 #include <algorithm>
@@ -27,31 +27,45 @@ void add_columns(double* __restrict y, Index rows, const double* __restrict colu
 void multiply(const MatrixXd& a, const Columns3& x, Columns3& out) {
   out.setZero();
   const Index rows = a.rows(), count = a.cols();
-  double* __restrict ox = out.data(), * __restrict oy = ox + rows, * __restrict oz = oy + rows;
-  const double* __restrict xx = x.data(), * __restrict xy = xx + count, * __restrict xz = xy + count;
-  const double* __restrict c0 = a.data();
+  double* __restrict ox = out.data();
+  double* __restrict oy = ox + rows;
+  double* __restrict oz = oy + rows;
   // One pass over the matrix, which is what takes the time, serves all three.
   Index k = 0;
-  for (; k + 2 <= count; k += 2, c0 += 2 * rows) {
-    const double* __restrict c1 = c0 + rows;
-    const double x0 = xx[k], x1 = xx[k + 1], y0 = xy[k], y1 = xy[k + 1], z0 = xz[k], z1 = xz[k + 1];
+  for (; k + 4 <= count; k += 4) {
+    const double *c0 = &a(0, k), *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+    const double x0 = x(k, 0), x1 = x(k + 1, 0), x2 = x(k + 2, 0), x3 = x(k + 3, 0);
+    const double y0 = x(k, 1), y1 = x(k + 1, 1), y2 = x(k + 2, 1), y3 = x(k + 3, 1);
+    const double z0 = x(k, 2), z1 = x(k + 1, 2), z2 = x(k + 2, 2), z3 = x(k + 3, 2);
     for (Index i = 0; i < rows; ++i) {
-      ox[i] += x0 * c0[i] + x1 * c1[i];
-      oy[i] += y0 * c0[i] + y1 * c1[i];
-      oz[i] += z0 * c0[i] + z1 * c1[i];
+      const double a0 = c0[i], a1 = c1[i], a2 = c2[i], a3 = c3[i];
+      ox[i] += (x0 * a0 + x1 * a1) + (x2 * a2 + x3 * a3);
+      oy[i] += (y0 * a0 + y1 * a1) + (y2 * a2 + y3 * a3);
+      oz[i] += (z0 * a0 + z1 * a1) + (z2 * a2 + z3 * a3);
     }
   }
-  if (k == count) return;
-  for (Index i = 0; i < rows; ++i) {
-    ox[i] += xx[k] * c0[i];
-    oy[i] += xy[k] * c0[i];
-    oz[i] += xz[k] * c0[i];
+  for (; k < count; ++k) {
+    const double* c0 = &a(0, k);
+    for (Index i = 0; i < rows; ++i) {
+      ox[i] += x(k, 0) * c0[i];
+      oy[i] += x(k, 1) * c0[i];
+      oz[i] += x(k, 2) * c0[i];
+    }
   }
 }
 
 void multiply(const MatrixXd& a, const Vector& x, Eigen::Ref<Vector> out) {
   out.setZero();
   add_columns(out.data(), a.rows(), a.data(), a.rows(), x.data(), 1, a.cols(), 1);
+}
+
+double safe_norm(const Vector& x) {
+  double largest = 0;
+  for (const double number : x) largest = std::abs(number) > largest || std::isnan(number) ? std::abs(number) : largest;
+  if (!(largest > 0) || !std::isfinite(largest)) return largest;
+  double sum = 0;
+  for (const double number : x) sum += number / largest * (number / largest);
+  return largest * std::sqrt(sum);
 }
 
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {

@@ -34,4 +34,7 @@ void factor_lu(MatrixXd& a, std::vector<Index>& pivots);
 /** b ← b a⁻¹ from a's factor: solves from the right. */
 void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd& b);
 
+/** ‖x‖ that neither overflows nor vanishes before it has to (Eigen's stableNorm() is 1.5 kB of code for every expression). */
+double safe_norm(const Vector& x);
+
 }  // namespace handlebody

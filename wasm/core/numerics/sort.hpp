@@ -28,7 +28,7 @@ void sort(Numbers& numbers, Order order);
 /** 0, 1, …, count − 1 in order. */
 Numbers sorted_indices(std::size_t count, Order order);
 
-/** Moves the `middle` first numbers of [first, last) to the front. */
+/** Partitions [first, last): the numbers that come first in order go to [first, middle). */
 void split(std::uint32_t* first, std::uint32_t* middle, std::uint32_t* last, Order order);
 
 }  // namespace handlebody

@@ -43,7 +43,7 @@ void Word::append_to(std::string& message) const {
   }
   if (kind_ == Kind::integer ? integer_ < 0 : real_ < 0) message += '-';
   if (kind_ == Kind::integer) {
-    message += digits(static_cast<std::uint64_t>(integer_ < 0 ? -integer_ : integer_));
+    message += digits(integer_ < 0 ? -static_cast<std::uint64_t>(integer_) : static_cast<std::uint64_t>(integer_));
   } else if (!std::isfinite(real_)) {
     message += std::isnan(real_) ? "NaN" : "infinity";
   } else {

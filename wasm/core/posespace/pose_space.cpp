@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/numerics/dense.hpp"
+
 namespace handlebody {
 
 namespace {
@@ -26,7 +28,8 @@ double automatic_width(KernelKind kind) {
 
 // Halving first, since the extent of huge coordinates may overflow.
 double diagonal_of(const Eigen::Ref<const Matrix>& places) {
-  return 2 * (places.colwise().maxCoeff() / 2 - places.colwise().minCoeff() / 2).stableNorm();
+  const Vector half = places.colwise().maxCoeff() / 2 - places.colwise().minCoeff() / 2;
+  return 2 * safe_norm(half);
 }
 
 /** Distance of every place to its nearest neighbor, or EXAMPLE_DUPLICATE. */
@@ -34,9 +37,11 @@ Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
   const Index count = places.rows();
   const double tolerance = coincident * diagonal_of(places);
   Vector spacing = Vector::Constant(count, std::numeric_limits<double>::infinity());
+  Vector apart(places.cols());
   for (Index i = 1; i < count; ++i) {
     for (Index j = 0; j < i; ++j) {
-      const double distance = (places.row(i) - places.row(j)).stableNorm();
+      apart = places.row(i) - places.row(j);
+      const double distance = safe_norm(apart);
       if (distance <= tolerance)
         return Error(HB_ERROR_EXAMPLE_DUPLICATE, {"Example ", i, " is at the same place as example ", j, "."},
                      {"Move one of the two, or remove it."}, HB_CULPRIT_EXAMPLE, i);
@@ -96,7 +101,7 @@ Result<Done> PoseSpace::weights(const Eigen::Ref<const Vector>& query, Eigen::Re
       return Error(HB_ERROR_QUERY_NOT_FINITE, {"Coordinate ", k, " of the query is not finite."},
                    {"Ask for weights at finite coordinates."});
   query_ = query / 2 - center_ / 2;
-  const double half_distance = query_.stableNorm();
+  const double half_distance = safe_norm(query_);
   if (half_distance > reach_ / 2)
     query_ = center_ + query_ * (reach_ / half_distance);
   else

@@ -1,0 +1,28 @@
+import { describe, expect, it } from 'vitest';
+import { rangesOf, setInfluences } from '../../web/studio/influences.ts';
+
+describe('the influences of morph targets', () => {
+  const examples = [
+    [0, 1, 0.5, 0],
+    [1, 0, -0.25, 1.5],
+  ];
+  const ranges = rangesOf(examples);
+
+  it('are what they were at the examples', () => {
+    for (const shape of examples) {
+      const influences = [9, 9, 9, 9];
+      setInfluences(influences, Float64Array.from(shape), ranges);
+      expect(influences).toEqual(shape);
+    }
+  });
+
+  it('stay within 0 and 1, or within what the examples ask for', () => {
+    const influences = [0, 0, 0, 0, 7];
+    setInfluences(influences, [-0.06, 1.04, -0.3, 1.6], ranges);
+    expect(influences).toEqual([0, 1, -0.25, 1.5, 0]);
+  });
+
+  it('need no example', () => {
+    expect(rangesOf([])).toEqual([]);
+  });
+});
