@@ -9,22 +9,20 @@ type Lamp = readonly [right: number, up: number, near: number, intensity: number
 interface Rig {
   readonly sky: number;
   readonly key: Lamp;
-  readonly fill: Lamp;
-  readonly rim: Lamp;
+  readonly second: Lamp;
 }
 
-/** An animal stands in daylight that comes from high up, so that its shadow lies beneath it. */
-const DAYLIGHT: Rig = { sky: 2.6, key: [-0.9, 3.4, 1.5, 2.1], fill: [2, 0.8, 2.2, 0.9], rim: [1.2, 1.6, -2.6, 0.9] };
+/** An animal stands in daylight from high up, so that its shadow lies beneath it; a cool light from behind draws its outline. */
+const DAYLIGHT: Rig = { sky: 2.9, key: [-0.9, 3.4, 1.6, 2.2], second: [1.2, 1.6, -2.6, 0.9] };
 /** A bust floats: a large soft window beside the viewer, and so much light from all around that no feature lies in the dark. */
-const PORTRAIT: Rig = { sky: 2.5, key: [1.5, 2, 2.5, 1.7], fill: [-2.2, 0.3, 2.4, 0.7], rim: [-1.6, 1.8, -2.4, 0.8] };
+const PORTRAIT: Rig = { sky: 2.7, key: [1.5, 2, 2.5, 1.75], second: [-2.4, 0.4, 1.9, 0.8] };
 
-/** A sky, a warm key, a fill without shadow, a cool rim from behind, and a ground that only shows the shadow. */
+/** A sky, a warm key and a cool second lamp (each lamp costs at every pixel), and a ground that only shows the shadow. */
 export class StudioLight {
   readonly group = new Group();
   readonly #sky = new HemisphereLight(0xf7faff, 0xd8cfc6);
   readonly #key = new DirectionalLight(0xfff2e6);
-  readonly #fill = new DirectionalLight(0xfff8f2);
-  readonly #rim = new DirectionalLight(0xcfe0ff);
+  readonly #second = new DirectionalLight(0xdde8ff);
   readonly #ground: Mesh<PlaneGeometry, ShadowMaterial>;
 
   constructor() {
@@ -36,7 +34,7 @@ export class StudioLight {
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
     this.group.add(this.#sky, this.#ground);
-    for (const lamp of [this.#key, this.#fill, this.#rim]) this.group.add(lamp, lamp.target);
+    for (const lamp of [this.#key, this.#second]) this.group.add(lamp, lamp.target);
   }
 
   /**
@@ -46,8 +44,8 @@ export class StudioLight {
   fit(center: Vector3, radius: number, azimuth: number, floor: number | undefined): void {
     const rig = floor === undefined ? PORTRAIT : DAYLIGHT;
     this.#sky.intensity = rig.sky;
-    for (const name of ['key', 'fill', 'rim'] as const) {
-      const lamp = { key: this.#key, fill: this.#fill, rim: this.#rim }[name];
+    for (const name of ['key', 'second'] as const) {
+      const lamp = name === 'key' ? this.#key : this.#second;
       const [right, up, near, intensity] = rig[name];
       lamp.intensity = intensity;
       lamp.position.set(right, up, near).applyAxisAngle(UP, azimuth).multiplyScalar(radius).add(center);
