@@ -1,5 +1,5 @@
-// The native side of `npm run bench`: the same calls through the same C interface as the wasm side, on the body in the file named by
-// the first argument (written by body-file.mjs). Prints one JSON object of milliseconds, each the least of its repetitions.
+// The native side of `npm run bench`: the same calls through the same C interface as the wasm side, on the body in the file named
+// by the first argument (written by body-file.mjs). Prints one JSON object of milliseconds, each the least of its repetitions.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

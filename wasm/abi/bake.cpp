@@ -76,5 +76,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   return HB_OK;
 }
 
-void hb_bake_free(hb_bake* bake) { delete bake; }
+void hb_bake_free(hb_bake* bake) {
+  delete bake;
+}
 }

@@ -83,7 +83,9 @@ int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t*
   return done ? HB_OK : fail(done.error());
 }
 
-double* hb_irbf_targets(hb_irbf* irbf) { return irbf->irbf->targets(); }
+double* hb_irbf_targets(hb_irbf* irbf) {
+  return irbf->irbf->targets();
+}
 
 int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, hb_irbf_report* report) {
   const auto solved = irbf->irbf->solve(static_cast<int>(std::min(max_iterations, 1u << 20)), tolerance);
@@ -106,5 +108,7 @@ int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, do
   return HB_OK;
 }
 
-void hb_irbf_free(hb_irbf* irbf) { delete irbf; }
+void hb_irbf_free(hb_irbf* irbf) {
+  delete irbf;
+}
 }

@@ -28,11 +28,19 @@ int32_t handlebody::fail(const Error& error) {
 
 extern "C" {
 
-uint32_t hb_abi_version(void) { return 1; }
+uint32_t hb_abi_version(void) {
+  return 1;
+}
 
-const hb_error* hb_last_error(void) { return &last_error; }
+const hb_error* hb_last_error(void) {
+  return &last_error;
+}
 
-void* hb_alloc(uint32_t bytes) { return std::malloc(bytes); }
+void* hb_alloc(uint32_t bytes) {
+  return std::malloc(bytes);
+}
 
-void hb_release(void* memory) { std::free(memory); }
+void hb_release(void* memory) {
+  std::free(memory);
+}
 }

@@ -53,18 +53,30 @@ Result<double> Bake::step() {
     case Phase::domain:
       if (auto done = make_domain(); !done) return done.error();
       break;
-    case Phase::surface_distance: measure_surface_distances(); break;
-    case Phase::spheres: pack(); break;
-    case Phase::stencils: sample_vertices(); break;
-    case Phase::centers: add_center(); break;
-    case Phase::quantize: quantize(); break;
-    case Phase::finished: break;
+    case Phase::surface_distance:
+      measure_surface_distances();
+      break;
+    case Phase::spheres:
+      pack();
+      break;
+    case Phase::stencils:
+      sample_vertices();
+      break;
+    case Phase::centers:
+      add_center();
+      break;
+    case Phase::quantize:
+      quantize();
+      break;
+    case Phase::finished:
+      break;
   }
   return progress();
 }
 
 Result<Done> Bake::voxelize_slab() {
-  // A point is inside where the surface winds about it at least half, whichever way its parts are oriented: open models leak little.
+  // A point is inside where the surface winds about it at least half, whichever way its parts are oriented: open models leak
+  // little.
   for (int j = 0; j < grid_.dims[1]; ++j) {
     for (int i = 0; i < grid_.dims[0]; ++i) {
       const std::int64_t voxel = grid_.linear(i, j, slab_);
@@ -82,7 +94,8 @@ Result<Done> Bake::make_domain() {
   }
   std::vector<std::uint32_t> unbridged = inside_;
   bridge_components(grid_, inside_);
-  const double bytes = static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * (sizeof(float) + sizeof(std::uint16_t));
+  const double bytes =
+      static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * (sizeof(float) + sizeof(std::uint16_t));
   if (bytes > 2e9) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
                  {options_.centers, " centers × ", inside_.size(), " voxels would take ", static_cast<int>(bytes / 1e6), " MB."},
@@ -90,9 +103,8 @@ Result<Done> Bake::make_domain() {
   }
   // A bridge runs outside the surface: no sphere may sit there.
   on_bridge_.resize(inside_.size());
-  std::transform(inside_.begin(), inside_.end(), on_bridge_.begin(), [&](std::uint32_t voxel) {
-    return !std::binary_search(unbridged.begin(), unbridged.end(), voxel);
-  });
+  std::transform(inside_.begin(), inside_.end(), on_bridge_.begin(),
+                 [&](std::uint32_t voxel) { return !std::binary_search(unbridged.begin(), unbridged.end(), voxel); });
   body_.domain = VoxelDomain(grid_, std::move(inside_));
   phase_ = Phase::surface_distance;
   return Done{};
@@ -148,7 +160,8 @@ void Bake::add_center() {
   for (const double distance : field_) fields_.push_back(static_cast<float>(distance));
 
   // The next center is the vertex that is farthest, inside the body, from all so far.
-  samples_.distance_ratios(center, [&](std::uint32_t v) { return field_[v]; }, ratios_);
+  samples_.distance_ratios(
+      center, [&](std::uint32_t v) { return field_[v]; }, ratios_);
   Index farthest = 0;
   for (Index v = 0; v < samples_.size(); ++v) {
     double& coverage = coverage_[static_cast<std::size_t>(v)];
@@ -178,14 +191,22 @@ double Bake::progress() const {
   // Shares of the time on the dog with 200 centers at 96 voxels, native.
   const auto part = [](auto done, auto all) { return static_cast<double>(done) / static_cast<double>(all); };
   switch (phase_) {
-    case Phase::voxelize: return 0.30 * part(slab_, grid_.dims[2]);
-    case Phase::domain: return 0.30;
-    case Phase::surface_distance: return 0.30 + 0.05 * part(surface_distance_.size(), body_.domain.voxels().size());
-    case Phase::spheres: return 0.35;
-    case Phase::stencils: return 0.36 + 0.04 * part(samples_.size(), weld_.unique.size());
-    case Phase::centers: return 0.40 + 0.59 * part(body_.centers.size(), options_.centers);
-    case Phase::quantize: return 0.99;
-    case Phase::finished: return 1;
+    case Phase::voxelize:
+      return 0.30 * part(slab_, grid_.dims[2]);
+    case Phase::domain:
+      return 0.30;
+    case Phase::surface_distance:
+      return 0.30 + 0.05 * part(surface_distance_.size(), body_.domain.voxels().size());
+    case Phase::spheres:
+      return 0.35;
+    case Phase::stencils:
+      return 0.36 + 0.04 * part(samples_.size(), weld_.unique.size());
+    case Phase::centers:
+      return 0.40 + 0.59 * part(body_.centers.size(), options_.centers);
+    case Phase::quantize:
+      return 0.99;
+    case Phase::finished:
+      return 1;
   }
   return 1;
 }

@@ -1,5 +1,5 @@
-// Shape deformation by interior radial basis functions (Levi & Levin, paper 001): soft positional constraints (appendix), local/global
-// optimization of sphere distortion (§2.3, §4.6), on the reduced matrix that never touches centers or vertices.
+// Shape deformation by interior radial basis functions (Levi & Levin, paper 001): soft positional constraints (appendix),
+// local/global optimization of sphere distortion (§2.3, §4.6), on the reduced matrix that never touches centers or vertices.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ namespace handlebody {
 
 struct IrbfOptions {
   KernelKind kernel = KernelKind::inverse_multiquadric;
-  double relative_width = 2;    // h, in mean center spacings
-  double smoothness = 1e-6;     // λ of eq. (10)
-  double anchor_weight = 100;   // μ
-  double edge_exponent = -1;    // α of eq. (8)
+  double relative_width = 2;   // h, in mean center spacings
+  double smoothness = 1e-6;    // λ of eq. (10)
+  double anchor_weight = 100;  // μ
+  double edge_exponent = -1;   // α of eq. (8)
 };
 
 enum class HandleKind : unsigned { position = 0, rotation = 1 };
@@ -104,14 +104,14 @@ class Irbf {
   std::unique_ptr<TriangleTree> surface_;
   double structure_radius_ = 0;  // of a rotation handle's six points
 
-  Points edges_;      // 3B×3: √w e
+  Points edges_;        // 3B×3: √w e
   Vector edge_scale_;   // 3B: 1/√w
   MatrixXd edge_rows_;  // 3B × (4 + C): √w [e 0 Δφ]
   MatrixXd gram_;       // lower triangle: edge_rowsᵀ edge_rows + λ on the coefficients
 
   Weld weld_;
   Triangles welded_triangles_;
-  PointsF stored_;                                                             // as stored, model units
+  PointsF stored_;                                                            // as stored, model units
   PointsF rest_, displacement_, deformed_, rest_normals_, deformed_normals_;  // welded, solver space
   std::unique_ptr<FrameKernel> frame_kernel_;
 

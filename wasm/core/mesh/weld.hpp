@@ -9,7 +9,7 @@
 namespace handlebody {
 
 struct Weld {
-  std::vector<std::uint32_t> unique;   // for each welded vertex, the first stored vertex there
+  std::vector<std::uint32_t> unique;     // for each welded vertex, the first stored vertex there
   std::vector<std::uint32_t> to_unique;  // for each stored vertex, its welded vertex
 };
 
