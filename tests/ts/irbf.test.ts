@@ -199,6 +199,21 @@ describe('irbf', () => {
     expect(hb.memory).toBe(memory);
   });
 
+  it('solves and deforms frame after frame in the memory that it has', () => {
+    const irbf = prepare();
+    const [positions, normals] = [new Float32Array(bar.mesh.positions.length), new Float32Array(bar.mesh.positions.length)];
+    const frame = (time: number) => {
+      irbf.targets[1] = 2 + Math.sin(time);
+      irbf.solve({ maxIterations: 5 });
+      irbf.deform(positions, normals);
+    };
+    frame(0);
+    const memory = hb.memory;
+    for (let time = 1; time < 300; time++) frame(time);
+    expect(hb.memory).toBe(memory);
+    irbf.dispose();
+  });
+
   it('evaluates anywhere, as the vertices do', () => {
     const irbf = prepare();
     irbf.targets[0] = (irbf.targets[0] ?? 0) - 1;

@@ -1,6 +1,8 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
+import type { Exports } from '../../wasm/ts/abi.generated.ts';
 import { load as loadExternal } from '../../wasm/ts/external.ts';
+import { Heap } from '../../wasm/ts/heap.ts';
 import { HandlebodyError, load } from '../../wasm/ts/index.ts';
 import { boxMesh } from './support/shapes.ts';
 
@@ -36,5 +38,25 @@ describe('load', () => {
     const before = b.memory;
     await a.bake(boxMesh([1, 1, 1], [4, 4, 4]), { centers: 100, resolution: 48 });
     expect(b.memory).toBe(before);
+  });
+
+  it('poisons an instance that trapped: every later call says so', () => {
+    let calls = 0;
+    const trap = () => {
+      calls++;
+      throw new WebAssembly.RuntimeError('unreachable');
+    };
+    const heap = new Heap({ memory: new WebAssembly.Memory({ initial: 1 }), hb_abi_version: trap } as unknown as Exports);
+    for (let i = 0; i < 2; i++) {
+      expect(() => heap.call((e) => e.hb_abi_version())).toThrow(expect.objectContaining({ code: 'wasm-trapped' }));
+    }
+    expect(calls).toBe(1);
+  });
+
+  it('refuses memory that cannot be had, and goes on', async () => {
+    const hb = await load();
+    const error = await hb.bake(boxMesh([1, 1, 1], [20, 20, 20]), { centers: 5000, resolution: 80 }).catch((e: unknown) => e);
+    expect(error).toMatchObject({ code: 'out-of-memory', remedy: expect.stringContaining('fewer centers') });
+    await expect(hb.bake(boxMesh([1, 1, 1], [2, 2, 2]), { centers: 4, resolution: 12 })).resolves.toBeDefined();
   });
 });
