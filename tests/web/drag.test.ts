@@ -59,6 +59,35 @@ describe('a handle on the dog', () => {
     expect(said).toEqual([]);
   });
 
+  it('follows a pen', async () => {
+    const { page } = await visit(browser);
+    const rest = await surface(page, PAW);
+    const from = await middle(page, PAW);
+    const pointers = page.evaluate(
+      () =>
+        new Promise<string>((heard) =>
+          addEventListener('pointerdown', (event) => heard(event.pointerType), { once: true, capture: true }),
+        ),
+    );
+    const session = await page.context().newCDPSession(page);
+    const pen = (type: 'mousePressed' | 'mouseMoved' | 'mouseReleased', dx: number) =>
+      session.send('Input.dispatchMouseEvent', {
+        type,
+        x: from.x + dx,
+        y: from.y - dx,
+        button: 'left',
+        buttons: type === 'mouseReleased' ? 0 : 1,
+        clickCount: 1,
+        pointerType: 'pen',
+      });
+    await pen('mousePressed', 0);
+    expect(await pointers).toBe('pen');
+    for (const dx of [10, 25, 40]) await pen('mouseMoved', dx);
+    await settled(page);
+    await pen('mouseReleased', 40);
+    expect(distance(await surface(page, PAW), rest)).toBeGreaterThan(0.05);
+  });
+
   it('goes back when Esc is pressed during a drag', async () => {
     const { page } = await visit(browser);
     const rest = await surface(page, PAW);
