@@ -34,7 +34,7 @@ function liftPaw(body: BodyData) {
   irbf.targets[0] = (irbf.targets[0] ?? 0) + 0.12 * diagonal;
   irbf.targets[1] = (irbf.targets[1] ?? 0) + 0.12 * diagonal;
   const target = irbf.targets.slice(0, 3);
-  irbf.solve({ maxIterations: 60 });
+  irbf.solve();
   const out = deformed(irbf);
   irbf.dispose();
 

@@ -14,7 +14,8 @@ export const IRBF_DEFAULTS = {
   edgeExponent: -1,
 } as const;
 
-export const SOLVE_DEFAULTS = { maxIterations: 30, tolerance: 1e-5 } as const;
+/** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
+export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5 } as const;
 
 const KERNELS: Record<IrbfKernel, number> = { gaussian: 3, 'inverse-multiquadric': 5, 'inverse-quadratic': 6 };
 
@@ -147,7 +148,10 @@ export class Irbf {
       .slice();
   }
 
-  /** Local/global iterations from where the last call stopped. On bad targets it throws and the last solution stays. */
+  /**
+   * Local/global iterations from where the last call stopped: a few in every frame keep a drag smooth, and go on converging when it
+   * rests. On bad targets it throws and the last solution stays.
+   */
   solve(options: SolveOptions = {}): SolveReport {
     const heap = this.#heap;
     const irbf = this.#alive();
