@@ -4,39 +4,22 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 #include <random>
 
-#include "core/distance/fast_marching.hpp"
+#include "made_domains.hpp"
 
 using namespace handlebody;
+using test::cube_grid;
+using test::domain_where;
+using test::random_direction;
 
 namespace {
-
-template <typename Inside>
-VoxelDomain domain_where(const Grid& grid, Inside inside) {
-  std::vector<std::uint32_t> voxels;
-  for (std::int64_t c = 0; c < grid.size(); ++c) {
-    if (inside(grid.center(c))) voxels.push_back(static_cast<std::uint32_t>(c));
-  }
-  return {grid, voxels};
-}
-
-Grid cube_grid(int resolution) {
-  return *make_grid({-1, -1, -1}, {1, 1, 1}, resolution);
-}
 
 template <typename Function>
 double read(const VoxelDomain& domain, const Stencil& stencil, Function function) {
   double sum = 0;
   for (std::size_t i = 0; i < stencil.voxels.size(); ++i) sum += stencil.weights[i] * function(domain.center(stencil.voxels[i]));
   return sum;
-}
-
-Vector3 random_direction(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(random), y = normal(random);
-  return Vector3(x, y, normal(random)).normalized();
 }
 
 double linear(const Vector3& p) {
@@ -146,38 +129,4 @@ TEST_CASE("a stencil's reading is continuous along a path on the surface (seed 9
   MESSAGE("largest jump over 0.01 h: " << jump / (h * h) << " h², largest error " << error / (h * h) << " h²");
   CHECK(jump < .05 * h * h);  // the error of a linear fit is of order h²; a jump is a small part of it
   CHECK(error < 3 * h * h);
-}
-
-TEST_CASE("in a convex domain the cone at the center is exact wherever the field is") {
-  const VoxelDomain domain = domain_where(cube_grid(20), [](const Vector3& p) { return p.norm() < 1; });
-  for (const Vector3& center : {Vector3(.03, -.02, .01), Vector3(0, .6, .8), domain.center(domain.size() / 2)}) {
-    std::vector<double> field;
-    for (Index v = 0; v < domain.size(); ++v) field.push_back((domain.center(v) - center).norm());
-    std::mt19937 random(10);
-    for (int n = 0; n < 200; ++n) {
-      const Vector3 p = center * .999 + .1 * n / 200. * random_direction(random);
-      CHECK(interior_distance(domain, field.data(), center, make_stencil(domain, p), p) == doctest::Approx((p - center).norm()));
-    }
-  }
-}
-
-TEST_CASE("a marched field read next to its center is exact, and nowhere below the Euclidean distance (seed 11)") {
-  const VoxelDomain domain = domain_where(cube_grid(24), [](const Vector3& p) { return std::abs(p[0]) > .3 || p[2] > .3; });
-  const Vector3 center(-.6, .1, -1);
-  std::vector<double> field(domain.size());
-  FastMarching(domain).march(center, field.data());
-  const double h = domain.grid().spacing;
-  std::mt19937 random(11);
-  for (int n = 0; n < 300; ++n) {
-    const Vector3 near = center + h * random_direction(random);
-    CHECK(interior_distance(domain, field.data(), center, make_stencil(domain, near), near) == doctest::Approx(h));
-    const Vector3 far = center + 2 * random_direction(random);
-    CHECK(interior_distance(domain, field.data(), center, make_stencil(domain, far), far) >= (far - center).norm());
-  }
-}
-
-TEST_CASE("an unreachable voxel makes the distance infinite") {
-  const VoxelDomain domain = domain_where(cube_grid(8), [](const Vector3&) { return true; });
-  const std::vector<double> field(domain.size(), std::numeric_limits<double>::infinity());
-  CHECK(std::isinf(interior_distance(domain, field.data(), {0, 0, 0}, make_stencil(domain, {.5, .5, .5}), {.5, .5, .5})));
 }

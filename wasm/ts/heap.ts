@@ -126,11 +126,6 @@ export class Scratch {
     this.#heap.f64(pointer, values.length).set(values);
     return pointer;
   }
-  putF32(values: NumberArray): number {
-    const pointer = this.reserve(values.length * 4);
-    this.#heap.f32(pointer, values.length).set(values);
-    return pointer;
-  }
   putU32(values: NumberArray): number {
     const pointer = this.reserve(values.length * 4);
     this.#heap.u32(pointer, values.length).set(values);

@@ -18,8 +18,8 @@ class InteriorSamples {
   Index size() const { return static_cast<Index>(points_.size()); }
   const Vector3& point(Index i) const { return points_[static_cast<std::size_t>(i)]; }
 
-  /** The field that stencils interpolate: the ratio of interior to Euclidean distance from `center` (see stencil.hpp), at the
-   * voxels that the stencils use. `interior(v)` is the interior distance of voxel v. */
+  /** The field that stencils interpolate, at the voxels that they use: the ratio of interior to Euclidean distance from `center`.
+   * It is 1 in view of the center, so that the cone there is exact. `interior(v)` is the interior distance of voxel v. */
   template <typename Interior>
   void distance_ratios(const Vector3& center, const Interior& interior, std::vector<double>& ratios) const {
     ratios.resize(voxels_.size());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/numerics/orthogonal_columns.hpp"
 
@@ -128,19 +127,6 @@ Stencil make_stencil(const VoxelDomain& domain, const Vector3& point) {
   gather(domain, p, nearest, radius, stencil, places);
   moving_least_squares(p, radius, places, stencil.weights);
   return stencil;
-}
-
-double interior_distance(const VoxelDomain& domain, const double* field, const Vector3& center, const Stencil& stencil,
-                         const Vector3& point) {
-  const double tiny = 1e-9 * domain.grid().spacing;
-  double ratio = 0;
-  for (std::size_t i = 0; i < stencil.voxels.size(); ++i) {
-    const std::int32_t v = stencil.voxels[i];
-    if (std::isinf(field[v])) return std::numeric_limits<double>::infinity();
-    const double straight = (domain.center(v) - center).norm();
-    ratio += stencil.weights[i] * (straight > tiny ? field[v] / straight : 1);
-  }
-  return std::max(ratio, 1.0) * (point - center).norm();
 }
 
 }  // namespace handlebody

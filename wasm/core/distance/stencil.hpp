@@ -22,10 +22,4 @@ struct Stencil {
  *  is: a point outside reads the nearest voxels, extrapolating over 1.5 spacings at most. */
 Stencil make_stencil(const VoxelDomain& domain, const Vector3& point);
 
-/** Interior distance between `center` and `point` from the center's field. What is interpolated is the ratio of interior to
- *  Euclidean distance, which is 1 in view of the center, so the cone at the center is exact; never less than the Euclidean
- *  distance. */
-double interior_distance(const VoxelDomain& domain, const double* field, const Vector3& center, const Stencil& stencil,
-                         const Vector3& point);
-
 }  // namespace handlebody
