@@ -140,6 +140,32 @@ HB_API int32_t hb_pose_space_weights(hb_pose_space* space, const double* query, 
 
 HB_API void hb_pose_space_free(hb_pose_space* space);
 
+/* ---- scattered interpolation -------------------------------------------------------------------------------------------- */
+
+/* Points with values, and what makes a function of them. `points` count × dimension, `values` count × outputs, 1 to 64 dimensions. All
+ * *_create functions of this section check them alike: POINTS_TOO_FEW, POINT_NOT_FINITE, VALUE_NOT_FINITE, POINTS_DEGENERATE, and,
+ * unless the method smooths, POINT_DUPLICATE where two points at one place (closer than 1e-9 of the extent) have different values;
+ * where the values are equal the later point is merged into the earlier one. */
+typedef struct hb_interpolant hb_interpolant;
+
+/* The point that stands for each (count as given): its own number, or that of the earlier point that it was merged into. */
+HB_API int32_t hb_interpolant_twins(hb_interpolant* interpolant, uint32_t* twins);
+
+/* Values (count × outputs) at `queries` (count × dimension). Allocates nothing. Fails with QUERY_NOT_FINITE (culprit: the query). */
+HB_API int32_t hb_interpolant_evaluate(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out);
+
+/* Gradients (count × outputs × dimension) at `queries`, NaN where there is none. Fails with QUERY_NOT_FINITE, or INVALID_OPTION for a
+ * method without gradients. */
+HB_API int32_t hb_interpolant_gradient(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out);
+
+/* Weights of the points as given (count × points) at `queries`: the value is their sum over the points' values. */
+HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out);
+
+HB_API void hb_interpolant_free(hb_interpolant* interpolant);
+
+/* Shepard's method with weights (r + epsilon)^-power. */
+HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
+
 #ifdef __cplusplus
 }
 #endif

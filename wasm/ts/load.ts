@@ -4,6 +4,7 @@ import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { Irbf } from './irbf.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+import { Shepard, type ShepardOptions } from './shepard.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -41,6 +42,11 @@ export class Handlebody {
   /** Prepares examples in a pose space for interpolation. */
   poseSpace(options: PoseSpaceOptions): PoseSpace {
     return new PoseSpace(this.#heap, options);
+  }
+
+  /** Shepard's inverse-distance weighting of scattered data. */
+  shepard(options: ShepardOptions): Shepard {
+    return new Shepard(this.#heap, options);
   }
 }
 

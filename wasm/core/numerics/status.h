@@ -45,6 +45,13 @@ typedef enum hb_status {
   HB_ERROR_EXAMPLES_DEGENERATE = 83, /* places that do not span the polynomial tail, e.g. on one line */
   HB_ERROR_EXAMPLE_SHAPE_MISMATCH = 84,
   HB_ERROR_QUERY_NOT_FINITE = 85,
+  HB_ERROR_POINT_DUPLICATE = 86, /* two points at one place with different values */
+  HB_ERROR_POINT_NOT_FINITE = 87,
+  HB_ERROR_VALUE_NOT_FINITE = 88,
+  HB_ERROR_POINTS_TOO_FEW = 89,
+  HB_ERROR_POINTS_DEGENERATE = 90, /* points that do not span what the method needs, e.g. on one line */
+  HB_ERROR_SYSTEM_SINGULAR = 91,   /* the interpolation equations have no answer in double precision */
+  HB_ERROR_KERNEL_FAILED = 92,     /* a kernel of the caller's threw, or gave a number that is not finite */
 
   /* files */
   HB_ERROR_FILE_NOT_GLB = 100,
@@ -63,7 +70,9 @@ typedef enum hb_culprit {
   HB_CULPRIT_EXAMPLE = 4,
   HB_CULPRIT_OPTION = 5,
   HB_CULPRIT_CENTER = 6,
-  HB_CULPRIT_BYTE = 7
+  HB_CULPRIT_BYTE = 7,
+  HB_CULPRIT_POINT = 8,
+  HB_CULPRIT_QUERY = 9
 } hb_culprit;
 
 #endif

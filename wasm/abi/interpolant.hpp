@@ -1,0 +1,37 @@
+// Shared by the files that implement the scattered-interpolation section of handlebody.h.
+#pragma once
+
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "abi/support.hpp"
+#include "core/interpolation/interpolant.hpp"
+
+struct hb_interpolant {
+  std::unique_ptr<handlebody::Interpolant> method;
+};
+
+namespace handlebody {
+
+/** The arrays of a *_create function. */
+struct GivenData {
+  const double *points, *values;
+  uint32_t count, dimension, outputs;
+
+  Eigen::Map<const Matrix> point_rows() const { return {points, static_cast<Index>(count), static_cast<Index>(dimension)}; }
+  Eigen::Map<const Matrix> value_rows() const { return {values, static_cast<Index>(count), static_cast<Index>(outputs)}; }
+};
+
+/** HB_OK, or the failure of counts and pointers that no method accepts. */
+int32_t check_given(const GivenData& data, hb_interpolant** out);
+
+/** Hands a made interpolant to the caller. */
+template <typename Method>
+int32_t deliver(Result<Method> made, hb_interpolant** out) {
+  if (!made) return fail(made.error());
+  *out = new hb_interpolant{std::make_unique<Method>(std::move(*made))};
+  return HB_OK;
+}
+
+}  // namespace handlebody

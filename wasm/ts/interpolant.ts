@@ -1,0 +1,199 @@
+import type { Exports } from './abi.generated.ts';
+import { HandlebodyError } from './errors.ts';
+import type { Heap, Scratch } from './heap.ts';
+
+/** Points with values, as every scattered interpolant takes them. */
+export interface ScatteredData {
+  /** Coordinates of a point, 1 to 64. */
+  readonly dimension: number;
+  /** n × dimension, row-major. */
+  readonly points: ArrayLike<number>;
+  /** n × m, row-major: m numbers a point, which share all the work. */
+  readonly values: ArrayLike<number>;
+}
+
+/** The arguments that every *_create function of the C interface begins with, and its last. */
+export interface CreateArguments {
+  readonly points: number;
+  readonly values: number;
+  readonly count: number;
+  readonly dimension: number;
+  readonly outputs: number;
+  /** Where the new object's address goes. */
+  readonly out: number;
+}
+
+/** Queries that cross into the solver at a time: its scratch memory stays bounded, however many are asked. */
+const BATCH = 4096;
+
+/**
+ * A function made of scattered data: f(x) = Σ wₖ(x) fₖ, one weight for each point. Arrays are row-major; `out` may be handed over to
+ * be filled, so that a call allocates nothing.
+ */
+export abstract class Interpolant {
+  /** Points, as given. */
+  readonly size: number;
+  readonly dimension: number;
+  /** Values a point. */
+  readonly outputs: number;
+  /** Points left out because an earlier one has the same place and values. */
+  readonly merged: readonly { readonly point: number; readonly into: number }[];
+
+  protected readonly heap: Heap;
+  #handle: number;
+  #scratch = 0;
+  #scratchBytes = 0;
+
+  /** @internal */
+  protected constructor(
+    heap: Heap,
+    data: ScatteredData,
+    create: (exports: Exports, given: CreateArguments, scratch: Scratch) => number,
+  ) {
+    const { count, outputs } = checkShapes(data);
+    this.heap = heap;
+    this.size = count;
+    this.dimension = data.dimension;
+    this.outputs = outputs;
+    const made = heap.scope((scratch) => {
+      const points = scratch.putF64(data.points);
+      const values = scratch.putF64(data.values);
+      const out = scratch.reserve(4);
+      const given = { points, values, count, dimension: data.dimension, outputs, out };
+      heap.check((exports) => create(exports, given, scratch));
+      const handle = heap.u32(out, 1)[0] ?? 0;
+      const twins = scratch.reserve(4 * count);
+      heap.check((exports) => exports.hb_interpolant_twins(handle, twins));
+      const merged = [...heap.u32(twins, count)]
+        .map((into, point) => ({ point, into }))
+        .filter(({ point, into }) => point !== into);
+      return { handle, merged };
+    });
+    this.#handle = made.handle;
+    this.merged = made.merged;
+  }
+
+  /** Values (q × outputs) at queries (q × dimension). */
+  evaluate(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+    return this.#ask('evaluate', queries, this.outputs, out);
+  }
+
+  /** Gradients (q × outputs × dimension) at queries (q × dimension); NaN where there is none. */
+  gradient(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+    return this.#ask('gradient', queries, this.outputs * this.dimension, out);
+  }
+
+  /** The points' weights (q × size) at queries (q × dimension): the value is their sum over the points' values. */
+  weights(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+    return this.#ask('weights', queries, this.size, out);
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
+  dispose(): void {
+    const handle = this.#handle;
+    if (handle === 0) return;
+    this.#handle = 0;
+    this.heap.call((e) => e.hb_interpolant_free(handle));
+    this.heap.free(this.#scratch);
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  /** @internal The object in the solver's memory. */
+  protected get handle(): number {
+    if (this.#handle !== 0) return this.#handle;
+    throw new HandlebodyError('disposed', {
+      message: 'This interpolant was disposed of and cannot be used any more.',
+      remedy: 'Make a new one of the same data.',
+    });
+  }
+
+  #ask(
+    what: 'evaluate' | 'gradient' | 'weights',
+    queries: ArrayLike<number>,
+    width: number,
+    given: Float64Array | undefined,
+  ): Float64Array {
+    const { handle, heap, dimension } = this;
+    const count = queries.length / dimension;
+    if (!Number.isInteger(count)) throw notRows('queries', queries.length, dimension);
+    const out = given ?? new Float64Array(count * width);
+    if (out.length !== count * width) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `${what}() got room for ${out.length} numbers; ${count} queries make ${count * width}.`,
+        remedy: `Give ${width} numbers a query, or leave it out.`,
+      });
+    }
+    for (let first = 0; first < count; first += BATCH) {
+      const batch = Math.min(BATCH, count - first);
+      this.#reserve(8 * batch * (dimension + width));
+      const from = this.#scratch;
+      const to = from + 8 * batch * dimension;
+      const input = heap.f64(from, batch * dimension);
+      for (let i = 0, at = first * dimension; i < input.length; i++, at++) input[i] = queries[at] as number;
+      try {
+        heap.check((e) => e[`hb_interpolant_${what}`](handle, from, batch, to));
+      } catch (error) {
+        throw countFrom(error, first);
+      }
+      out.set(heap.f64(to, batch * width), first * width);
+    }
+    return out;
+  }
+
+  #reserve(bytes: number): void {
+    if (bytes <= this.#scratchBytes) return;
+    this.heap.free(this.#scratch);
+    this.#scratch = 0;
+    this.#scratchBytes = 0;
+    this.#scratch = this.heap.alloc(bytes);
+    this.#scratchBytes = bytes;
+  }
+}
+
+/** The counts that the lengths of the arrays imply. */
+export function checkShapes({ dimension, points, values }: ScatteredData): { count: number; outputs: number } {
+  if (!Number.isInteger(dimension) || dimension < 1) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `The dimension is ${dimension}.`,
+      remedy: 'Give the number of coordinates of a point, 1 or more.',
+    });
+  }
+  const count = points.length / dimension;
+  if (!Number.isInteger(count)) throw notRows('points', points.length, dimension);
+  if (count === 0) {
+    throw new HandlebodyError('points-too-few', {
+      message: 'There are no points.',
+      remedy: 'Give at least one point with a value.',
+    });
+  }
+  const outputs = values.length / count;
+  if (!Number.isInteger(outputs) || outputs === 0) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `There are ${values.length} values for ${count} points.`,
+      remedy: 'Give every point the same number of values, one or more.',
+    });
+  }
+  return { count, outputs };
+}
+
+function notRows(what: string, length: number, dimension: number): HandlebodyError {
+  return new HandlebodyError('invalid-shape', {
+    message: `The ${length} numbers of the ${what} are no whole number of rows of ${dimension}.`,
+    remedy: `Give ${dimension} coordinates for each, or another dimension.`,
+  });
+}
+
+/** The solver counts the queries of a batch: says the culprit in the caller's numbers. */
+function countFrom(error: unknown, first: number): unknown {
+  if (first === 0 || !(error instanceof HandlebodyError) || error.culprit?.kind !== 'query') return error;
+  const index = error.culprit.index + first;
+  return new HandlebodyError(error.code, {
+    message: error.message.replace(`query ${error.culprit.index}`, `query ${index}`),
+    remedy: error.remedy,
+    culprit: { kind: 'query', index },
+    cause: error,
+  });
+}
