@@ -4,7 +4,11 @@ export { type Culprit, type CulpritKind, type ErrorCode, HandlebodyError } from 
 export { hashPositions } from './hash.ts';
 export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
+export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
+export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+export { RBF_DEFAULTS, Rbf, type RbfOptions, type RbfReport } from './rbf.ts';
+export type { RbfWarning, RbfWarningCode } from './rbf-warnings.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export type * from './types.ts';
