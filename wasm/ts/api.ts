@@ -8,7 +8,8 @@ export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type Us
 export type { Handlebody, LoadOptions } from './load.ts';
 export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
-export { RBF_DEFAULTS, Rbf, type RbfOptions, type RbfReport } from './rbf.ts';
-export type { RbfWarning, RbfWarningCode } from './rbf-warnings.ts';
+export { Rbf } from './rbf.ts';
+export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
+export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export type * from './types.ts';

@@ -6,7 +6,8 @@ import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
-import { Rbf, type RbfOptions } from './rbf.ts';
+import { Rbf } from './rbf.ts';
+import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 

@@ -1,7 +1,7 @@
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkShapes } from './interpolant.ts';
-import { type RbfOptions, resolve, writeOptions } from './rbf.ts';
+import { type RbfOptions, resolve, writeOptions } from './rbf-options.ts';
 
 export type OutlierMethod = 'row-sum' | 'leave-one-out' | 'residual';
 

@@ -1,25 +1,6 @@
 import { KERNELS, type KernelName } from './kernels.ts';
-import type { RbfOptions, RbfReport } from './rbf.ts';
-
-export type RbfWarningCode =
-  | 'ill-conditioned'
-  | 'narrow-width'
-  | 'near-duplicates'
-  | 'merged-duplicates'
-  | 'misses-points'
-  | 'not-definite'
-  | 'unequal-widths';
-
-/** Something that a fit survives and its user should know: a stable code for programs, sentences for people. */
-export interface RbfWarning {
-  readonly code: RbfWarningCode;
-  readonly message: string;
-  readonly remedy: string;
-  /** The points concerned, where there are any. */
-  readonly points?: readonly number[];
-  /** Options that would do better. */
-  readonly suggestion?: { readonly width?: number; readonly smoothing?: number };
-}
+import type { RbfOptions } from './rbf-options.ts';
+import type { RbfReport, RbfWarning } from './rbf-report.ts';
 
 /** What a report tells beyond what it shows. */
 export interface WarningFacts {
