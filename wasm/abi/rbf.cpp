@@ -64,10 +64,14 @@ Result<RbfOptions> read_options(const hb_rbf_options& from, uint32_t dimension) 
 /** Pairs of points closer than a thousandth of the mean spacing. */
 void list_near_pairs(const ScatteredData& data, double spacing, hb_rbf_report& report) {
   const double limit = spacing * spacing * 1e-6;
+  const Index d = data.points.cols();
+  const double* a = data.points.data();
   constexpr uint32_t most = sizeof report.near_pairs / sizeof report.near_pairs[0] / 2;
   for (Index i = 0; i < data.points.rows(); ++i) {
     for (Index j = 0; j < i; ++j) {
-      if (!((data.points.row(i) - data.points.row(j)).squaredNorm() < limit)) continue;
+      double squared = 0;
+      for (Index axis = 0; axis < d; ++axis) squared += (a[i * d + axis] - a[j * d + axis]) * (a[i * d + axis] - a[j * d + axis]);
+      if (!(squared < limit)) continue;
       if (report.near_count < most) {
         report.near_pairs[2 * report.near_count] = data.kept[static_cast<std::size_t>(j)];
         report.near_pairs[2 * report.near_count + 1] = data.kept[static_cast<std::size_t>(i)];

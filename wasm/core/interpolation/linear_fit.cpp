@@ -15,9 +15,10 @@ namespace {
 
 double largest_column_sum(const MatrixXd& matrix) {
   double largest = 0;
+  const double* entry = matrix.data();
   for (Index j = 0; j < matrix.cols(); ++j) {
     double sum = 0;
-    for (Index i = 0; i < matrix.rows(); ++i) sum += std::abs(matrix(i, j));
+    for (Index i = 0; i < matrix.rows(); ++i) sum += std::abs(*entry++);
     if (!(largest >= sum) && !std::isnan(largest)) largest = sum;  // a NaN stays
   }
   return largest;

@@ -140,13 +140,15 @@ Vector RadialBasis::widths() const {
 
 void RadialBasis::to_inner(const double* query, double* inner) const {
   const Index d = dimension();
+  const double* center = center_.data();
   if (linear_.size() == 0) {
-    for (Index axis = 0; axis < d; ++axis) inner[axis] = scale_ * (query[axis] - center_[axis]);
+    for (Index axis = 0; axis < d; ++axis) inner[axis] = scale_ * (query[axis] - center[axis]);
     return;
   }
+  const double* linear = linear_.data();
   for (Index row = 0; row < d; ++row) {
     inner[row] = 0;
-    for (Index axis = row; axis < d; ++axis) inner[row] += scale_ * linear_(row, axis) * (query[axis] - center_[axis]);
+    for (Index axis = row; axis < d; ++axis) inner[row] += scale_ * linear[axis * d + row] * (query[axis] - center[axis]);
   }
 }
 
@@ -169,7 +171,7 @@ void RadialBasis::squared_distances() {
   std::fill(out, out + k, 0.0);
   for (Index axis = 0; axis < dimension(); ++axis) {
     const double* __restrict c = centers_.data() + axis * k;
-    const double x = inner_[axis];
+    const double x = inner_.data()[axis];
     for (Index i = 0; i < k; ++i) out[i] += (x - c[i]) * (x - c[i]);
   }
   const double* __restrict inverse = inverse_squares_.data();
@@ -188,7 +190,8 @@ void RadialBasis::values(const double* query, double* out) {
     // Far from all centers every Gaussian underflows and 0/0 would follow; the smallest exponent cancels in the quotient.
     if (normalized_ && kernel_.kind == KernelKind::gaussian) squared_.array() -= squared_.minCoeff();
     kernel_.values(squared_.data(), k);
-    for (Index i = 0; i < k; ++i) out[i] = amplitudes_[i] * squared_[i];
+    const double *amplitudes = amplitudes_.data(), *radial = squared_.data();
+    for (Index i = 0; i < k; ++i) out[i] = amplitudes[i] * radial[i];
   }
   if (normalized_) {
     double sum = 0;
@@ -263,40 +266,39 @@ void RadialBasis::combine(const MatrixXd& coefficients, const double* queries, I
     }
     return;
   }
+  double* inner = block_inner_.data();  // block × d
+  double* sums = block_sums_.data();    // block × m
   for (Index first = 0; first < count; first += block) {
     const Index width = std::min(block, count - first);
     for (Index q = 0; q < width; ++q) {
       to_inner(queries + (first + q) * d, inner_.data());
-      block_inner_.row(q) = inner_.transpose();
-    }
-    for (Index q = 0; q < width; ++q) {  // the tail
-      inner_ = block_inner_.row(q).transpose();
       polynomial_values(inner_.data(), d, degree_, row_.data());
+      for (Index axis = 0; axis < d; ++axis) inner[axis * block + q] = inner_.data()[axis];
       for (Index j = 0; j < m; ++j) {
         double sum = 0;
-        for (Index t = 0; t < tail_; ++t) sum += coefficients(j, k + t) * row_[t];
-        block_sums_(q, j) = sum;
+        for (Index t = 0; t < tail_; ++t) sum += coefficients.data()[(k + t) * m + j] * row_.data()[t];
+        sums[j * block + q] = sum;
       }
     }
     double column[block];
     for (Index i = 0; i < k; ++i) {
       std::fill(column, column + width, 0.0);
       for (Index axis = 0; axis < d; ++axis) {
-        const double* __restrict x = &block_inner_(0, axis);
-        const double c = centers_(i, axis);
+        const double* __restrict x = inner + axis * block;
+        const double c = centers_.data()[axis * k + i];
         for (Index q = 0; q < width; ++q) column[q] += (x[q] - c) * (x[q] - c);
       }
-      const double inverse = inverse_squares_[i];
+      const double inverse = inverse_squares_.data()[i];
       for (Index q = 0; q < width; ++q) column[q] *= inverse;
       kernel_.values(column, width);
       for (Index j = 0; j < m; ++j) {
-        const double c = coefficients(j, i) * amplitudes_[i];
-        double* __restrict sums = &block_sums_(0, j);
-        for (Index q = 0; q < width; ++q) sums[q] += c * column[q];
+        const double c = coefficients.data()[i * m + j] * amplitudes_.data()[i];
+        double* __restrict sum = sums + j * block;
+        for (Index q = 0; q < width; ++q) sum[q] += c * column[q];
       }
     }
     for (Index q = 0; q < width; ++q)
-      for (Index j = 0; j < m; ++j) out[(first + q) * m + j] = block_sums_(q, j);
+      for (Index j = 0; j < m; ++j) out[(first + q) * m + j] = sums[j * block + q];
   }
 }
 

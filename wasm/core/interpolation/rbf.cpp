@@ -204,7 +204,7 @@ Result<Matrix> Rbf::leave_one_out() {
   for (Index i = 0; i < n; ++i) errors.row(data_.kept[static_cast<std::size_t>(i)]) = kept.row(i);
   for (Index i = 0; i < size(); ++i) {
     const std::uint32_t twin = data_.twin_of[static_cast<std::size_t>(i)];
-    if (twin != i) errors.row(twin).setZero();
+    if (static_cast<Index>(twin) != i) errors.row(twin).setZero();
   }
   return errors;
 }
@@ -213,13 +213,11 @@ RbfReport Rbf::report() {
   RbfReport report;
   const Index n = data_.points.rows();
   report.condition = fit_->condition();
-  Vector fitted(outputs());
-  for (Index i = 0; i < n; ++i) {
-    evaluate(&data_.points(i, 0), 1, fitted.data());
-    for (Index j = 0; j < outputs(); ++j) {
-      const double misfit = std::abs(fitted[j] - data_.values(i, j));
-      if (!(report.residual >= misfit) && !std::isnan(report.residual)) report.residual = misfit;  // a NaN stays
-    }
+  Matrix fitted(n, outputs());
+  evaluate(data_.points.data(), n, fitted.data());
+  for (Index i = 0; i < fitted.size(); ++i) {
+    const double misfit = std::abs(fitted.data()[i] - data_.values.data()[i]);
+    if (!(report.residual >= misfit) && !std::isnan(report.residual)) report.residual = misfit;  // a NaN stays
   }
   report.spacing = n > 1 ? nearest_distances(basis_.to_inner(data_.points)).mean() / basis_.scale() : 0;
   report.least_width = basis_.widths().minCoeff();
