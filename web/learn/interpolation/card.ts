@@ -80,6 +80,8 @@ export class Card {
     this.element = h('li', { class: 'card' }, head, this.#verdict, this.#warnings.element, this.#body);
     this.element.addEventListener('pointerenter', () => actions.emphasize(key));
     this.element.addEventListener('pointerleave', () => actions.emphasize(0));
+    this.element.addEventListener('focusin', () => actions.emphasize(key));
+    this.element.addEventListener('focusout', () => actions.emphasize(0));
   }
 
   get opened(): boolean {

@@ -6,6 +6,8 @@ import { axisMarks } from './scale.ts';
 
 /** A curve as the chart draws it. */
 export interface Curve {
+  /** Of the model, for emphasis. */
+  readonly key: number;
   readonly slot: number;
   readonly label: Label;
   readonly xs: Float64Array;
@@ -15,8 +17,6 @@ export interface Curve {
   readonly first?: number;
   /** Not of the present data, because those were refused. */
   readonly stale?: boolean;
-  /** Somebody looks at another one. */
-  readonly faded?: boolean;
   /** Dashed in any case: the sum of what is drawn below it. */
   readonly sum?: boolean;
 }
@@ -101,6 +101,13 @@ export class Chart {
   at(px: number, py: number): [number, number] {
     const [left, right, bottom, top] = this.#frame;
     return [left + (px / this.width) * (right - left), top - (py / this.height) * (top - bottom)];
+  }
+
+  /** Lets all curves fade but one model's; none for 0. */
+  emphasize(key: number): void {
+    for (const group of [this.#curves, this.#names])
+      for (const element of group.children)
+        element.toggleAttribute('data-faded', key !== 0 && (element as SVGElement).dataset.key !== String(key));
   }
 
   draw(curves: readonly Curve[]): void {
@@ -198,9 +205,9 @@ export function match<K extends keyof SVGElementTagNameMap>(
   while (group.childElementCount < count) group.append(make());
 }
 
-function mark(element: SVGElement, { slot, stale, faded, sum }: Curve): void {
+function mark(element: SVGElement, { key, slot, stale, sum }: Curve): void {
+  element.dataset.key = String(key);
   element.dataset.slot = String(slot);
   element.toggleAttribute('data-stale', !!stale);
-  element.toggleAttribute('data-faded', !!faded);
   element.toggleAttribute('data-sum', !!sum);
 }

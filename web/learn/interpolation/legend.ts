@@ -10,12 +10,11 @@ export class Legend {
     this.element.replaceChildren(...fits.map(({ model }) => h('li', {}, swatch(model.slot), h('span', {}))));
   }
 
-  update(fits: readonly Fit[], emphasis: number): void {
+  update(fits: readonly Fit[]): void {
     fits.forEach(({ model, label }, i) => {
       const item = this.element.children[i] as HTMLElement | undefined;
       if (!item) return;
       item.hidden = !model.shown;
-      item.toggleAttribute('data-faded', emphasis !== 0 && emphasis !== model.key);
       const text = [label.name, label.detail].filter(Boolean).join(', ');
       const span = item.lastElementChild as HTMLElement;
       if (span.textContent !== text) span.textContent = text;

@@ -58,13 +58,13 @@ export class LineView implements View {
     this.#handles.element(i)?.focus();
   }
 
-  draw({ experiment, fits, emphasis, outliers }: Picture): void {
+  draw({ experiment, fits, outliers }: Picture): void {
     this.#chart.frame = experiment.frame;
     const xs = this.#samples.spread(experiment.frame, experiment.points);
     const seen = fits.filter((fit) => fit.model.shown && fit.interpolant);
-    this.#chart.draw(seen.map((fit) => this.#curve(fit, xs, emphasis, experiment.show.kernels && !!fit.rbf)));
+    this.#chart.draw(seen.map((fit) => this.#curve(fit, xs, experiment.show.kernels && !!fit.rbf)));
     this.#drawKernels(experiment, seen, xs);
-    this.#drawWeights(experiment, seen, xs, emphasis);
+    this.#drawWeights(experiment, seen, xs);
     this.#handles.draw();
     for (let i = 0; i < experiment.values.length; i++)
       this.#handles.element(i)?.toggleAttribute('data-outlier', outliers.includes(i));
@@ -72,16 +72,21 @@ export class LineView implements View {
 
   refine(): void {}
 
+  emphasize(key: number): void {
+    this.#chart.emphasize(key);
+    this.#weights.emphasize(key);
+  }
+
   dispose(): void {
     this.#handles.dispose();
   }
 
-  #curve(fit: Fit, xs: Float64Array, emphasis: number, sum: boolean): Curve {
+  #curve(fit: Fit, xs: Float64Array, sum: boolean): Curve {
     const { key, slot } = fit.model;
     const ys = asLong(this.#ys.get(key), xs.length);
     this.#ys.set(key, ys);
     fit.interpolant?.evaluate(xs, ys);
-    return { slot, label: fit.label, xs, ys, sum, stale: !!fit.problem, faded: emphasis !== 0 && emphasis !== key };
+    return { key, slot, label: fit.label, xs, ys, sum, stale: fit.problem !== undefined };
   }
 
   #drawKernels(experiment: Experiment, fits: readonly Fit[], xs: Float64Array): void {
@@ -91,7 +96,7 @@ export class LineView implements View {
         if (fit.problem) continue;
         const kernels = weightedKernels(this.#hb, fit, dataOf(experiment), xs);
         if (!kernels) continue;
-        for (let k = 0; k < kernels.length / xs.length; k++) paths.push([this.#chart.path(xs, kernels, 1, k * xs.length), k]);
+        for (let k = 0; k < kernels.length / xs.length; k++) paths.push([this.#hump(xs, kernels, k), k]);
       }
     }
     match(this.#kernels, 'path', paths.length);
@@ -102,8 +107,14 @@ export class LineView implements View {
     });
   }
 
+  /** A kernel with the area between it and zero. */
+  #hump(xs: Float64Array, kernels: Float64Array, k: number): string {
+    const zero = this.#chart.y(0).toFixed(1);
+    return `M0 ${zero}${this.#chart.path(xs, kernels, 1, k * xs.length).replace('M', 'L')}L${this.#chart.width} ${zero}Z`;
+  }
+
   /** The chosen point's weight along the line, for each interpolant: its cardinal function. */
-  #drawWeights({ show, picked, values, frame }: Experiment, fits: readonly Fit[], xs: Float64Array, emphasis: number): void {
+  #drawWeights({ show, picked, values, frame }: Experiment, fits: readonly Fit[], xs: Float64Array): void {
     const wanted = show.cardinal && picked >= 0;
     this.#weightsPart.hidden = !wanted;
     if (!wanted) return;
@@ -116,8 +127,7 @@ export class LineView implements View {
         const ys = asLong(this.#shares.get(key), xs.length * values.length);
         this.#shares.set(key, ys);
         fit.interpolant?.weights(xs, ys);
-        const faded = emphasis !== 0 && emphasis !== key;
-        return { slot, label: fit.label, xs, ys, stride: values.length, first: picked, faded };
+        return { key, slot, label: fit.label, xs, ys, stride: values.length, first: picked };
       });
     this.#weights.draw(curves);
   }

@@ -67,6 +67,7 @@ export class Page {
     byId('panel').append(this.#models.element, this.#show.element, this.#table.element);
     for (const input of document.querySelectorAll<HTMLInputElement>('input[name=dimension]'))
       input.addEventListener('change', () => this.#turnTo(Number(input.value) as 1 | 2));
+    byId('copy').addEventListener('click', () => void this.#copy());
     addEventListener('hashchange', () => playground.open(location.hash));
     playground.open(location.hash);
   }
@@ -88,35 +89,74 @@ export class Page {
     byId('playground').dataset.dimension = String(dimension);
     for (const input of document.querySelectorAll<HTMLInputElement>('input[name=dimension]'))
       input.checked = input.value === String(dimension);
-    if (!this.#views.has(dimension))
-      this.#views.set(dimension, new LineView(hb, this.#playground, () => this.#playground.redraw()));
-    const view = this.#views.get(dimension) as View;
-    this.#playground.view = view;
-    if (view.element.parentElement !== this.#picture) this.#picture.replaceChildren(view.element);
+    this.#playground.view = this.#views.get(dimension);
+    if (this.#playground.view) this.#put(this.#playground.view);
+    else void this.#makeView(dimension, hb);
     this.#models.list(fits, dimension);
     this.#legend.list(fits);
     this.#caption.show(experiment.preset, false);
   }
 
+  /** The plane's part is fetched when somebody goes there. */
+  async #makeView(dimension: 1 | 2, hb: Handlebody): Promise<void> {
+    const playground = this.#playground;
+    const view =
+      dimension === 1
+        ? new LineView(hb, playground, () => playground.redraw())
+        : new (await import('./plane-view.ts')).PlaneView(playground);
+    if (!this.#views.has(dimension)) this.#views.set(dimension, view);
+    if (playground.experiment.dimension !== dimension) return;
+    playground.view = this.#views.get(dimension);
+    this.#put(view);
+    playground.redraw();
+  }
+
+  #put(view: View): void {
+    if (view.element.parentElement !== this.#picture) this.#picture.replaceChildren(view.element);
+  }
+
   #frame(): void {
-    const { experiment, tolerance, found, view, emphasis, fits } = this.#playground;
+    const { experiment, tolerance, found, view, fits } = this.#playground;
     this.#models.update(tolerance);
     this.#show.update(experiment, outlierText(found));
     this.#table.update(experiment);
-    this.#legend.update(fits, emphasis);
+    this.#legend.update(fits);
     this.#legend.element.hidden = view?.named ?? false;
     this.#remove.disabled = experiment.picked < 0 || experiment.values.length === 1;
     this.#remove.textContent = experiment.picked < 0 ? 'Remove' : `Remove point ${experiment.picked}`;
   }
 
   #rest(said: string): void {
+    this.#write();
+    this.#live.textContent = said;
+  }
+
+  /** The address says what the page shows. */
+  #write(): void {
     const { address, experiment } = this.#playground;
     if (`#${address}` !== location.hash && !(location.hash === '' && address === experiment.preset))
       history.replaceState(null, '', `#${address}`);
     this.#caption.show(experiment.preset, address !== experiment.preset);
     this.#film.show(address === experiment.preset ? address : '');
-    this.#live.textContent = said;
     byId('playground').dataset.address = address;
+  }
+
+  async #copy(): Promise<void> {
+    const button = byId('copy');
+    const say = (text: string) => {
+      button.textContent = text;
+      this.#live.textContent = text;
+      setTimeout(() => {
+        button.textContent = 'Copy link';
+      }, 2000);
+    };
+    this.#write();
+    try {
+      await navigator.clipboard.writeText(location.href);
+      say('Copied');
+    } catch {
+      say('It is in the address bar');
+    }
   }
 
   #removePicked(): void {

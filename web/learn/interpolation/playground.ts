@@ -49,6 +49,7 @@ export class Playground implements PointActions {
   #frame = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #restructured = true;
+  #anew = true;
 
   constructor(hb: Handlebody, audience: Audience) {
     this.hb = hb;
@@ -134,7 +135,8 @@ export class Playground implements PointActions {
   pick(i: number): void {
     if (i === this.experiment.picked) return;
     this.experiment.picked = i;
-    this.#change(new Set());
+    const { cardinal, surface } = this.experiment.show;
+    this.#change(new Set(), cardinal || surface);
   }
 
   addAt(across: number, up: number): void {
@@ -214,8 +216,9 @@ export class Playground implements PointActions {
   }
 
   emphasize(key: number): void {
+    if (this.emphasis === key) return;
     this.emphasis = key;
-    this.#change(new Set());
+    this.view?.emphasize(key);
   }
 
   setShow(show: Partial<Show>): void {
@@ -232,7 +235,8 @@ export class Playground implements PointActions {
     this.#change(new Set());
   }
 
-  #change(unsolved: Set<number> | 'all'): void {
+  #change(unsolved: Set<number> | 'all', anew = true): void {
+    this.#anew ||= anew;
     if (unsolved === 'all' || this.#unsolved === 'all') this.#unsolved = 'all';
     else for (const key of unsolved) this.#unsolved.add(key);
     this.#frame ||= requestAnimationFrame(() => this.#run());
@@ -247,8 +251,10 @@ export class Playground implements PointActions {
     this.found = searchOutliers(this.hb, this.experiment, this.fits);
     if (this.#restructured) this.#audience.structure(this);
     this.#restructured = false;
-    const { experiment, fits, emphasis, outliers } = this;
-    this.view?.draw({ experiment, fits, emphasis, outliers });
+    const { experiment, fits, outliers } = this;
+    this.view?.draw({ experiment, fits, outliers, anew: this.#anew });
+    this.view?.emphasize(this.emphasis);
+    this.#anew = !this.view;
     this.#audience.frame(this);
   }
 

@@ -19,7 +19,10 @@ export interface Preset {
 /** The course does not publish the numbers of its figures; these are made to show the same. Figures 9 to 16 share their points. */
 const SEVEN = { points: [1, 2.2, 3, 4.6, 6.6, 7.4, 9], values: [1.2, 2.6, 1.1, 3.2, 2.7, 1, 1.9] };
 const STEPS = { points: [0.5, 2, 3.2, 5, 6.2, 8, 9.5], values: [0.6, 0.7, 3.3, 3.4, 1.1, 1.2, 0.9] };
-const CROWD = { points: [1, 2, 2.9, 4, 5.1, 6, 7, 8.1, 9], values: [1.4, 2.1, 1.5, 2.4, 1.7, 2.9, 2.2, 1.2, 1.9] };
+const BELL = {
+  points: [1, 1.7, 2.4, 3.2, 3.9, 4.6, 5.4, 6.1, 6.9, 7.6, 8.4, 9],
+  values: [1, 1.46, 1.7, 2.26, 2.42, 2.7, 2.58, 2.62, 2.2, 2.02, 1.44, 1.2],
+};
 const WAVE = {
   points: [0.8, 1.6, 2.4, 3.2, 4, 4.8, 5.6, 6.4, 7.2, 8, 8.8],
   values: [1.4, 1.9, 2.3, 2.5, 2.4, 4, 1.9, 1.6, 1.5, 1.6, 1.8],
@@ -128,9 +131,9 @@ export const PRESETS: readonly Preset[] = [
     id: 'fig-14',
     mark: 'Fig. 14',
     title: 'The same Gaussian, wider',
-    look: 'Twice as wide, the curve is calmer close to the points and swings farther out where they are sparse. Its condition number has grown.',
+    look: 'Half as wide again, the curve is rounder and swings farther out where points are sparse. Its condition number has grown.',
     attempt: 'Widen on, step by step: the curve hardly changes any more, the condition number explodes.',
-    make: () => made('fig-14', 1, SEVEN, [gaussian(2.4)]),
+    make: () => made('fig-14', 1, SEVEN, [gaussian(1.9)]),
   },
   {
     id: 'fig-15',
@@ -176,23 +179,24 @@ export const PRESETS: readonly Preset[] = [
     id: 'fig-19',
     mark: 'Fig. 19',
     title: 'Too broad, and cured',
-    look: 'Kernels much broader than the spacing make rows of the matrix nearly alike. The curve may go anywhere between points; a smoothing of 1e−5 tames it and costs almost nothing.',
-    attempt: 'Read the condition numbers. Take the smoothing down to 1e−10 and drag a point a little.',
-    make: () => made('fig-19', 1, CROWD, [gaussian(5), gaussian(5, { smoothing: 1e-5 })]),
+    look: 'Kernels much broader than the spacing make rows of the matrix nearly alike. Then small bumps of the data swing far between the points and out of the picture beside them. A smoothing of 1e−5 tames the curve, which misses its points by less than a tenth.',
+    attempt: 'Compare the condition numbers, and the weights: hundreds of thousands that cancel. Then drag one point a little.',
+    make: () => made('fig-19', 1, BELL, [gaussian(5), gaussian(5, { smoothing: 1e-5 })]),
   },
   {
     id: 'fig-20',
     mark: 'Fig. 20',
     title: 'Four corners and a peak',
-    look: 'Zero at the corners of a square, one in the middle, a Gaussian far too broad. The section shows how regularization by 0, 0.01 and 0.1 trades the overshoot for a peak that is missed.',
-    attempt: 'Put a second value of 0.9 close to the middle: without regularization the overshoot runs away.',
+    look: 'Zero at the corners of a square, one in the middle, a Gaussian that is too broad: beyond the corners it plunges to half the peak, below zero. Weight decay of 0.01 and 0.1 tames that, and misses the peak.',
+    attempt:
+      'Add a point of another value close to the middle: without regularization the field runs away, with it nothing much happens.',
     make: () =>
       made(
         'fig-20',
         2,
         SQUARE,
-        [gaussian(4), gaussian(4, { decay: 0.01 }), gaussian(4, { decay: 0.1 })],
-        { section: 'across', sectionAt: 0 },
+        [gaussian(2), gaussian(2, { decay: 0.01 }), gaussian(2, { decay: 0.1 })],
+        { section: 'diagonal' },
         [-3, 3, -3, 3],
       ),
   },
@@ -200,18 +204,17 @@ export const PRESETS: readonly Preset[] = [
     id: 'fig-21',
     mark: 'Fig. 21',
     title: 'An outlier, found by the norm',
-    look: 'The star marks the point that the curve must bend for most: the one whose row contributes most to the norm of the function.',
+    look: 'The star marks the point that the curve bends for: without it the norm of the function, a measure of all bending, falls most.',
     attempt: 'Drag the marked point back among the others until its star goes out.',
-    make: () => made('fig-21', 1, WAVE, [gaussian(1)], { outliers: 'row-sum' }),
+    make: () => made('fig-21', 1, WAVE, [['rbf', { kernel: 'cubic' }]], { outliers: 'leave-one-out' }),
   },
   {
     id: 'fig-21b',
     mark: 'Fig. 21, again',
     title: 'An outlier in a ramp',
-    look: 'Here one value was saved at a wrong place. The norm finds it again; so does the simpler idea, the largest distance from a smoothed curve.',
-    attempt:
-      'Change the search to “farthest from the smoothed curve”, then make a second bad point: they are found one after another.',
-    make: () => made('fig-21b', 1, RAMP, [gaussian(1)], { outliers: 'row-sum' }),
+    look: 'One value was saved at a wrong place. Here the simpler idea finds it: smooth the curve, then take the point that is farthest from it.',
+    attempt: 'Make a second bad point: they are found one after another, each time without those found before.',
+    make: () => made('fig-21b', 1, RAMP, [['rbf', { kernel: 'cubic' }]], { outliers: 'residual' }),
   },
   {
     id: 'plane',

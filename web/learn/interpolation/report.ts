@@ -32,6 +32,8 @@ export function searchOutliers(hb: Handlebody, experiment: Experiment, fits: rea
       ...data,
       method,
       degree,
+      // The row sum only approximates, and its scores lie closer together.
+      ...(method === 'row-sum' && { threshold: 4 }),
       ...(kernel !== undefined && { kernel }),
       ...(width !== undefined && { width }),
       ...(order !== undefined && { order }),

@@ -7,7 +7,7 @@ export class WeightList {
   readonly #rows = h('div', { class: 'weight-rows' });
 
   constructor() {
-    this.element = h('div', { class: 'weight-list', hidden: true }, h('h4', {}, 'Weights of the kernels'), this.#rows);
+    this.element = h('div', { class: 'weight-list', hidden: true }, h('h3', {}, 'Weights of the kernels'), this.#rows);
   }
 
   show(weights: Float64Array | undefined): void {

@@ -25,7 +25,8 @@ export function health(condition: number): Health {
   return condition < 1e12 ? 'delicate' : 'hopeless';
 }
 
-/** "1e5", or "infinite" for equations without a solution. */
+/** "12", "1e5", or "infinite" for equations without a solution. */
 export function conditionText(condition: number): string {
-  return Number.isFinite(condition) ? scientific(condition) : 'infinite';
+  if (!Number.isFinite(condition)) return 'infinite';
+  return condition < 1000 ? brief(condition) : scientific(condition);
 }
