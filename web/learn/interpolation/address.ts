@@ -51,12 +51,8 @@ export function fromAddress(hash: string): Experiment {
   if (frame?.length === 4 && (frame[0] as number) < (frame[1] as number) && (frame[2] as number) < (frame[3] as number))
     experiment.frame = frame as unknown as Frame;
   const range = numbers(given.get('range') ?? '');
-  experiment.range =
-    range?.length === 2 && (range[0] as number) < (range[1] as number)
-      ? [range[0] as number, range[1] as number]
-      : rows
-        ? colorRange(experiment.values)
-        : experiment.range;
+  if (range?.length === 2 && (range[0] as number) < (range[1] as number)) experiment.range = range as unknown as [number, number];
+  else if (rows && !given.has('from')) experiment.range = colorRange(experiment.values);
   if (given.has('show')) experiment.show = readShow(given.get('show') ?? '');
   const picked = Number(given.get('pick') ?? experiment.picked);
   experiment.picked = Number.isInteger(picked) && picked < experiment.values.length ? picked : -1;
@@ -71,7 +67,7 @@ function parts(experiment: Experiment): Map<string, string> {
     ['p', rows.join(';')],
     ['m', models.map(modelText).join('~')],
     ['in', frame.join(',')],
-    ...(dimension === 2 ? [['range', range.map((value) => Number(value.toPrecision(6))).join(',')] as const] : []),
+    ...(dimension === 2 ? [['range', range.join(',')] as const] : []),
     ['show', showText(show)],
     ['pick', String(show.cardinal ? picked : -1)],
   ]);

@@ -23,7 +23,7 @@ export interface Curve {
 
 /** From this width on there is room for names beside the ends of curves. */
 const ROOMY = 640;
-const NAMES = 172;
+const NAMES = 184;
 const LINE = 15;
 
 let nextChart = 1;

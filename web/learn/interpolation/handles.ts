@@ -84,7 +84,7 @@ export class Handles {
       handle.setAttribute('aria-roledescription', 'movable point');
       handle.setAttribute('aria-keyshortcuts', 'ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Delete Escape');
     }
-    handle.dataset.point = String(i + 1);
+    handle.dataset.point = String(i);
     handle.addEventListener('pointerdown', (event) => this.#begin(event, i));
     handle.addEventListener('pointermove', (event) => this.#follow(event));
     for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)

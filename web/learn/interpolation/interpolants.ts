@@ -70,7 +70,7 @@ const movingLeastSquares: Kind = {
       id: 'width',
       label: 'Width',
       initial: 1.5,
-      low: 0.05,
+      low: 0.02,
       high: 50,
       scale: 'log',
       when: ({ weight }) => weight !== 'inverse-distance',

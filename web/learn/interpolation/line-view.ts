@@ -118,7 +118,7 @@ export class LineView implements View {
     const wanted = show.cardinal && picked >= 0;
     this.#weightsPart.hidden = !wanted;
     if (!wanted) return;
-    this.#weightsTitle.textContent = `Weight of point ${picked + 1} of ${values.length}`;
+    this.#weightsTitle.textContent = `Weight of point ${picked}`;
     this.#weights.frame = [frame[0], frame[1], -0.5, 1.3];
     const curves = fits
       .filter((fit) => !fit.problem)

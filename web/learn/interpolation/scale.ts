@@ -11,7 +11,7 @@ export function axisMarks(low: number, high: number, wanted: number): { at: numb
 export function colorRange(values: readonly number[]): readonly [number, number] {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const pad = high > low ? (high - low) / 4 : 1;
-  return [low - pad, high + pad];
+  return [Number((low - pad).toPrecision(6)), Number((high + pad).toPrecision(6))];
 }
 
 /** A slider's position, 0 to 1, for a number: even in the logarithm; with `zero`, the left end is 0. */

@@ -76,8 +76,8 @@ export class Surfaces {
     const { low, high } = colors;
     for (let i = 0; i < values.length; i++) {
       const value = values[i] as number;
-      // Far beyond the range only the direction matters.
-      const level = Number.isNaN(value) ? 0 : Math.min(Math.max((value - low) / (high - low), -1), 2);
+      // Beyond the range a little further, then cut off.
+      const level = Number.isNaN(value) ? 0 : Math.min(Math.max((value - low) / (high - low), -0.3), 1.3);
       positions.setY(i, (level - 0.5) * HEIGHT);
       this.#shade(colors.packed(value));
       shades.setXYZ(i, this.#color.r, this.#color.g, this.#color.b);
