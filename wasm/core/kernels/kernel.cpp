@@ -1,6 +1,9 @@
 #include "core/kernels/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/numerics/elementary.hpp"
 
 namespace handlebody {
 namespace {
@@ -10,6 +13,19 @@ constexpr int all_dimensions = 1000;
 template <typename Function>
 void each(double* squared, Index count, Function function) {
   for (Index i = 0; i < count; ++i) squared[i] = function(squared[i]);
+}
+
+/** function(q, ln q), a chunk at a time; ln 0 is some finite number. */
+template <typename Function>
+void each_with_logarithm(double* squared, Index count, Function function) {
+  constexpr Index chunk = 64;
+  double logs[chunk];
+  for (Index first = 0; first < count; first += chunk, squared += chunk) {
+    const Index width = std::min(chunk, count - first);
+    std::copy(squared, squared + width, logs);
+    logarithms(logs, width);
+    for (Index i = 0; i < width; ++i) squared[i] = function(squared[i], logs[i]);
+  }
 }
 
 /** x^n for small n ≥ 0: std::pow is large, and slower. */
@@ -71,15 +87,15 @@ void Kernel::values(double* squared, Index count) const {
       return each(squared, count, [](double q) { return q * std::sqrt(q); });
     case KernelKind::quintic:
       return each(squared, count, [](double q) { return q * q * std::sqrt(q); });
-    case KernelKind::thin_plate:  // 0·ln 0 would be NaN; the limit is 0
-      return each(squared, count, [](double q) { return q > 0 ? 0.5 * q * std::log(q) : 0; });
+    case KernelKind::thin_plate:
+      return each_with_logarithm(squared, count, [](double q, double log) { return 0.5 * q * log; });
     case KernelKind::polyharmonic:
       return each(squared, count, [e = exponent](double q) {
         if (e % 2) return power_of_root(q, e);
         return q > 0 ? 0.5 * std::log(q) * power(q, e / 2) : 0;
       });
     case KernelKind::gaussian:
-      return each(squared, count, [](double q) { return std::exp(-q); });
+      return decaying_exponentials(squared, count);
     case KernelKind::multiquadric:
       return each(squared, count, [](double q) { return std::sqrt(1 + q); });
     case KernelKind::inverse_multiquadric:
