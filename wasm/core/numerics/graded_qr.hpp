@@ -22,8 +22,8 @@ class GradedQr {
    *  others to 1e-10: where what is left of it, divided by the rows' scales, is nowhere above that part of what it was at most. */
   bool extend(Index end);
 
-  /** Columns factored. */
-  Index rank() const { return rank_; }
+  Index rows() const { return rows_; }
+  Index rank() const { return rank_; }  // columns factored
 
   /** x (rows): of all solutions of Aᵀx = b the shortest, for the first rank() columns of A. */
   void solve_transposed(const double* b, double* x);
