@@ -30,14 +30,14 @@ export interface PointSet {
 }
 
 /** Distinct points on a lattice, one value each, and a few queries in and around them. */
-export function pointSet({ dimensions = [1, 2, 3], minLength = 1 } = {}): fc.Arbitrary<PointSet> {
+export function pointSet({ dimensions = [1, 2, 3], least = (_dimension: number) => 1 } = {}): fc.Arbitrary<PointSet> {
   return fc
     .constantFrom(...dimensions)
     .chain((dimension) => {
       const place = fc.array(fc.integer({ min: -20, max: 20 }), { minLength: dimension, maxLength: dimension });
       return fc.record({
         dimension: fc.constant(dimension),
-        points: fc.uniqueArray(place, { minLength: minLength * dimension, maxLength: 30, selector: String }),
+        points: fc.uniqueArray(place, { minLength: least(dimension), maxLength: 30, selector: String }),
         queries: fc.array(fc.double({ min: -30, max: 30, noNaN: true }), { minLength: 4 * dimension, maxLength: 4 * dimension }),
         values: fc.array(fc.integer({ min: -100, max: 100 }), { minLength: 30, maxLength: 30 }),
       });
