@@ -166,6 +166,12 @@ HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 
+/* Moving least squares: at every query a polynomial of `degree` 0 to 2, fitted by `weight` 0 (r + epsilon)^-power, 1 exp(-(r/width)²) or
+ * 2 (1 - r/width)⁴₊ (4r/width + 1). A `width` of 0 is chosen from the spacing; `used_width`, or NULL, tells which (0 for weight 0). Fails
+ * with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the points do not determine a polynomial of the degree,
+ * INVALID_OPTION or OUT_OF_MEMORY. */
+HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
+
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */

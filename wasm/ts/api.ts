@@ -6,6 +6,12 @@ export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
 export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
+export {
+  MOVING_LEAST_SQUARES_DEFAULTS,
+  MovingLeastSquares,
+  type MovingLeastSquaresOptions,
+  type MovingWeight,
+} from './moving-least-squares.ts';
 export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 export { Rbf } from './rbf.ts';

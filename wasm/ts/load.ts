@@ -4,6 +4,7 @@ import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
@@ -61,6 +62,11 @@ export class Handlebody {
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
+  }
+
+  /** Moving least squares of scattered data: at every place a polynomial of its own. */
+  movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
+    return new MovingLeastSquares(this.#heap, options);
   }
 }
 
