@@ -228,6 +228,30 @@ HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
  * used. Fails as hb_rbf_create does. */
 HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores, uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing);
 
+/* ---- discrete Green's functions: where kernels come from ----------------------------------------------------------------- */
+
+/* A line of `size` samples (order + 1 to 1024), differences D of an order 1 to 3 and a boundary: 0 free ends, 1 Dirichlet (0 beyond), 2
+ * Neumann (no slope), 3 periodic. See core/interpolation/discrete_green.hpp for the matrices. */
+typedef struct hb_discrete_green hb_discrete_green;
+
+/* The smoothest curve by D through `samples` (sample_count different numbers below size) with `values`. Fails with INVALID_OPTION,
+ * INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
+HB_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
+
+/* Rows of D, and the dimension of the null space of DᵀD. */
+HB_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
+
+/* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its inverse or generalized inverse. */
+HB_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
+
+/* The curve (size), by elimination on the grid. */
+HB_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
+
+/* The curve (size) by radial functions, and their weights (sample_count + nullity) unless NULL: Green's functions at the samples first. */
+HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
+
+HB_API void hb_discrete_green_free(hb_discrete_green* green);
+
 #ifdef __cplusplus
 }
 #endif

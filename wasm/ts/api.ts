@@ -1,5 +1,12 @@
 /** What both entries export besides their `load`. */
 export { BAKE_DEFAULTS } from './bake.ts';
+export {
+  DISCRETE_GREEN_DEFAULTS,
+  DiscreteGreen,
+  type DiscreteGreenOptions,
+  type GridBoundary,
+  type GridMatrix,
+} from './discrete-green.ts';
 export { type Culprit, type CulpritKind, type ErrorCode, HandlebodyError } from './errors.ts';
 export { hashPositions } from './hash.ts';
 export { Interpolant, type ScatteredData } from './interpolant.ts';

@@ -1,5 +1,6 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
+import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
@@ -67,6 +68,11 @@ export class Handlebody {
   /** Moving least squares of scattered data: at every place a polynomial of its own. */
   movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
     return new MovingLeastSquares(this.#heap, options);
+  }
+
+  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
+  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
+    return new DiscreteGreen(this.#heap, options);
   }
 }
 
