@@ -119,7 +119,7 @@ export async function benchInterpolation() {
       rounds: ROUNDS,
       processor: cpus()[0]?.model,
       node: process.version,
-      peers: [...PYTHON_PEERS, 'rbf@1.1.5'],
+      peers: [...PYTHON_PEERS, 'rbf@1.1.5'].join(', '),
       results: Object.fromEntries(rows.map(([label, row]) => [label, rounded(row)])),
       poses: rounded(poses),
     };
