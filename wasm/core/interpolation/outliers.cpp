@@ -1,0 +1,123 @@
+#include "core/interpolation/outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/numerics/sort.hpp"
+
+namespace handlebody {
+namespace {
+
+/** The scores of the points that were kept. */
+Vector score(Rbf& rbf, OutlierMethod method) {
+  const ScatteredData& data = rbf.data();
+  const Index n = data.points.rows(), m = data.values.cols();
+  const Matrix coefficients = rbf.kernel_coefficients();
+  const double sign = rbf.basis().kernel().sign();
+  Vector squares = Vector::Zero(n), row(rbf.basis().size()), fitted(m);
+  RadialBasis basis = rbf.basis();
+  for (Index i = 0; i < n; ++i) {
+    if (method == OutlierMethod::leave_one_out) {
+      const double inverse = sign * rbf.cardinal()(i, i);
+      const double c = coefficients.row(data.kept[static_cast<std::size_t>(i)]).norm() / basis.amplitude_of_scale();
+      squares[i] = c * c / inverse;
+    } else if (method == OutlierMethod::row_sum) {
+      basis.values(&data.points(i, 0), row.data());
+      for (Index j = 0; j < m; ++j) {
+        double sum = 0;
+        for (Index k = 0; k < n; ++k) sum += (k == i ? 0.5 : 1) * row[k] * coefficients(data.kept[static_cast<std::size_t>(k)], j);
+        squares[i] += sign * coefficients(data.kept[static_cast<std::size_t>(i)], j) * sum / basis.amplitude_of_scale();
+      }
+    } else {
+      rbf.evaluate(&data.points(i, 0), 1, fitted.data());
+      squares[i] = (data.values.row(i).transpose() - fitted).squaredNorm();
+    }
+  }
+  for (double& number : squares) number = number > 0 ? std::sqrt(number) : 0;
+  return squares;
+}
+
+double median(Vector numbers) {
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return numbers[a] != numbers[b] ? numbers[a] < numbers[b] : a < b; };
+  const Numbers order = sorted_indices(static_cast<std::size_t>(numbers.size()), before);
+  const std::size_t half = order.size() / 2;
+  return order.size() % 2 ? numbers[order[half]] : (numbers[order[half - 1]] + numbers[order[half]]) / 2;
+}
+
+Result<Rbf> fit(const ScatteredData& data, const std::vector<std::uint32_t>& in, RbfOptions& options) {
+  Matrix points(static_cast<Index>(in.size()), data.points.cols()), values(points.rows(), data.values.cols());
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    points.row(static_cast<Index>(k)) = data.points.row(in[k]);
+    values.row(static_cast<Index>(k)) = data.values.row(in[k]);
+  }
+  return Rbf::create(points, values, options);
+}
+
+/** A tenth of the mean size of the kernel between points. */
+double automatic_smoothing(const ScatteredData& data, const RbfOptions& options) {
+  const auto rbf = Rbf::create(data.points, data.values, options);
+  if (!rbf) return 0;
+  RadialBasis basis = rbf->basis();
+  Vector row(basis.size());
+  double sum = 0;
+  for (Index i = 0; i < data.points.rows(); ++i) {
+    basis.values(&data.points(i, 0), row.data());
+    sum += row.head(data.points.rows()).cwiseAbs().sum();
+  }
+  const auto n = static_cast<double>(data.points.rows());
+  return 0.1 * sum / (n * n * basis.amplitude_of_scale());
+}
+
+}  // namespace
+
+Result<OutlierReport> find_outliers(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
+                                    const RbfOptions& given, const OutlierOptions& options) {
+  if (!(options.threshold > 0) || !std::isfinite(options.threshold))
+    return Error(HB_ERROR_INVALID_OPTION, {"The threshold ", options.threshold, " is not a positive finite number."},
+                 {"Give it in robust standard deviations, such as 4."}, HB_CULPRIT_OPTION);
+  if (given.centers.rows() || given.basis.normalized || given.weight_decay > 0)
+    return Error(HB_ERROR_INVALID_OPTION,
+                 {"Outliers are looked for with a kernel at each point, not normalized, without weight decay."},
+                 {"Leave out centers, normalized and weightDecay."}, HB_CULPRIT_OPTION);
+  RbfOptions rbf_options = given;
+  const bool automatic = given.smoothing < 0;
+  if (automatic) rbf_options.smoothing = 0;
+  auto data = check_data(points, values, rbf_options.smoothing > 0 ? Coincident::keep : Coincident::merge);
+  if (!data) return data.error();
+  if (automatic && options.method == OutlierMethod::residual) rbf_options.smoothing = automatic_smoothing(*data, rbf_options);
+
+  OutlierReport report;
+  report.smoothing = rbf_options.smoothing;
+  report.scores = Vector::Zero(data->given);
+  std::vector<std::uint32_t> in(data->kept.size());
+  for (std::size_t k = 0; k < in.size(); ++k) in[k] = static_cast<std::uint32_t>(k);
+  const double spread = (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff();
+  for (bool first = true;; first = false) {
+    auto rbf = fit(*data, in, rbf_options);
+    if (!rbf) {
+      if (first) return rbf.error();
+      break;  // too few are left for the tail
+    }
+    if (first && rbf_options.width_choice != WidthChoice::given) {  // the width of all points serves throughout
+      rbf_options.basis.kernel.width = rbf->basis().kernel().width;
+      rbf_options.width_choice = WidthChoice::given;
+    }
+    const Vector scores = score(*rbf, options.method);
+    if (first)
+      for (std::size_t k = 0; k < in.size(); ++k) report.scores[data->kept[k]] = scores[static_cast<Index>(k)];
+    if (in.size() < 4 || static_cast<Index>(report.outliers.size()) >= options.most) break;
+    Index highest = 0;
+    scores.maxCoeff(&highest);
+    const double middle = median(scores);
+    const double deviation = std::max(1.4826 * median((scores.array() - middle).abs()), 1e-9 * spread);
+    const double height = (scores[highest] - middle) / deviation;
+    if (!(height > options.threshold)) break;
+    report.outliers.push_back(data->kept[in[static_cast<std::size_t>(highest)]]);
+    report.outlier_scores.push_back(height);
+    in.erase(in.begin() + highest);
+  }
+  return report;
+}
+
+}  // namespace handlebody
