@@ -169,7 +169,7 @@ HB_API int32_t hb_shepard_create(const double* points, const double* values, uin
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
-  double smoothing;      /* λ ≥ 0 of R + λI; for hb_find_outliers -1 has it chosen */
+  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers has it chosen */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   const double* widths;  /* one a center, or NULL */
