@@ -9,6 +9,7 @@ import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -61,6 +62,11 @@ export class Handlebody {
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
   }
 }
 

@@ -85,11 +85,11 @@ Result<TensionKernel> TensionKernel::create(double alpha, double beta, double ga
   return kernel;
 }
 
-Result<TensionKernel> TensionKernel::scaled(double scale) const {
+Result<TensionKernel> TensionKernel::scaled(double scale, double factor) const {
   // ∫dx, ∇² and Δ² in the new units; δ goes with ∫dx.
   const double volume = dimension_ == 1 ? scale : dimension_ == 2 ? scale * scale : scale * scale * scale;
-  const double squared = scale * scale;
-  return create(alpha_ * (squared * squared / volume), beta_ * (squared / volume), gamma_ / volume, dimension_);
+  const double squared = scale * scale, unit = 1 / (factor * volume);
+  return create(alpha_ * (squared * squared * unit), beta_ * (squared * unit), gamma_ * unit, dimension_);
 }
 
 double TensionKernel::value(double r) const {

@@ -33,6 +33,9 @@ namespace handlebody {
 
 class TensionKernel {
  public:
+  /** r³/12. */
+  TensionKernel() = default;
+
   /** Fails with INVALID_SHAPE (a dimension other than 1, 2 and 3) or INVALID_OPTION: a weight that is negative or not finite; all
    *  three zero; α = 0 in 2D and 3D, where G(0) is infinite, or with β = 0; or lengths (α/β)^½, (α/γ)^¼ beyond double precision. */
   static Result<TensionKernel> create(double alpha, double beta, double gamma, Index dimension);
@@ -46,12 +49,11 @@ class TensionKernel {
   /** The degree of the tail, which is made of what the functional does not see: −1 (γ > 0), 0 (γ = 0) or 1 (β = γ = 0). */
   int minimum_degree() const { return gamma_ > 0 ? -1 : beta_ > 0 ? 0 : 1; }
 
-  /** The kernel for points whose coordinates are all multiplied by `scale`: scaled(s).value(s·r) = value(r), up to the tail. */
-  Result<TensionKernel> scaled(double scale) const;
+  /** The same for points whose coordinates are all multiplied by `scale`, times `factor`: scaled(s, c).value(s·r) = c·value(r), up
+   * to the tail. */
+  Result<TensionKernel> scaled(double scale, double factor = 1) const;
 
  private:
-  TensionKernel() = default;
-
   /** Two dimensions, roots that are close or a complex pair. */
   struct Jet {
     double value, slope;
