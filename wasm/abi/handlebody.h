@@ -163,6 +163,12 @@ HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double*
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
+/* Splines with tension in 1, 2 or 3 dimensions: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space,
+ * through the points for a smoothing of 0. `ends` 0: that; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only,
+ * with zero slope at both ends and constant beyond. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+ * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double alpha, double beta, double gamma, double smoothing, uint32_t ends, hb_interpolant** interpolant);
+
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 

@@ -11,6 +11,7 @@ import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -73,6 +74,11 @@ export class Handlebody {
   /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
   discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
     return new DiscreteGreen(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
   }
 }
 

@@ -122,6 +122,7 @@ void Kernel::values(double* squared, Index count) const {
     case KernelKind::custom:
       return each(squared, count, [this](double q) { return custom.function(custom.context, std::sqrt(q), false); });
     case KernelKind::tension:
+      return each(squared, count, [this](double q) { return tension.value(std::sqrt(q)); });
     case KernelKind::clamped_plate:  // needs more than a distance
       return;
   }
@@ -168,13 +169,17 @@ void Kernel::slopes(double* squared, Index count) const {
         return s > 0 ? custom.function(custom.context, s, true) / s : 0;
       });
     case KernelKind::tension:
+      return each(squared, count, [this](double q) {
+        const double r = std::sqrt(q);
+        return r > 0 ? tension.slope(r) / r : 0;
+      });
     case KernelKind::clamped_plate:
       return;
   }
 }
 
 bool Kernel::has_width() const {
-  return homogeneity() == 0;
+  return homogeneity() == 0 && kind != KernelKind::tension;
 }
 
 int Kernel::homogeneity() const {
@@ -201,6 +206,8 @@ int Kernel::minimum_degree() const {
       return 0;
     case KernelKind::custom:
       return custom.minimum_degree;
+    case KernelKind::tension:
+      return tension.minimum_degree();
     default: {
       const int e = homogeneity();
       return e == 0 ? -1 : e / 2;
@@ -229,7 +236,7 @@ int Kernel::definite_to_dimension() const {
 }
 
 bool Kernel::vanishes_at_center() const {
-  return homogeneity() != 0;
+  return homogeneity() != 0 || (kind == KernelKind::tension && tension.minimum_degree() >= 0);
 }
 
 }  // namespace handlebody
