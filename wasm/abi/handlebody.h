@@ -163,8 +163,20 @@ HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double*
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
+/* Splines with tension in 1, 2 or 3 dimensions: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space,
+ * through the points for a smoothing of 0. `ends` 0: that; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only,
+ * with zero slope at both ends and constant beyond. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+ * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double alpha, double beta, double gamma, double smoothing, uint32_t ends, hb_interpolant** interpolant);
+
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
+
+/* Moving least squares: at every query a polynomial of `degree` 0 to 2, fitted by `weight` 0 (r + epsilon)^-power, 1 exp(-(r/width)²) or
+ * 2 (1 - r/width)⁴₊ (4r/width + 1). A `width` of 0 is chosen from the spacing; `used_width`, or NULL, tells which (0 for weight 0). Fails
+ * with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the points do not determine a polynomial of the degree,
+ * INVALID_OPTION or OUT_OF_MEMORY. */
+HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
 
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
@@ -221,6 +233,30 @@ HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
  * deviations above the median, `most` at the most. `scores` count; `outliers` and `heights` have room for `most`; `smoothing` the one
  * used. Fails as hb_rbf_create does. */
 HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores, uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing);
+
+/* ---- discrete Green's functions: where kernels come from ----------------------------------------------------------------- */
+
+/* A line of `size` samples (order + 1 to 1024), differences D of an order 1 to 3 and a boundary: 0 free ends, 1 Dirichlet (0 beyond), 2
+ * Neumann (no slope), 3 periodic. See core/interpolation/discrete_green.hpp for the matrices. */
+typedef struct hb_discrete_green hb_discrete_green;
+
+/* The smoothest curve by D through `samples` (sample_count different numbers below size) with `values`. Fails with INVALID_OPTION,
+ * INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
+HB_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
+
+/* Rows of D, and the dimension of the null space of DᵀD. */
+HB_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
+
+/* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its inverse or generalized inverse. */
+HB_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
+
+/* The curve (size), by elimination on the grid. */
+HB_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
+
+/* The curve (size) by radial functions, and their weights (sample_count + nullity) unless NULL: Green's functions at the samples first. */
+HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
+
+HB_API void hb_discrete_green_free(hb_discrete_green* green);
 
 #ifdef __cplusplus
 }

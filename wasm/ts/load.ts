@@ -1,14 +1,17 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
+import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -61,6 +64,21 @@ export class Handlebody {
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
+  }
+
+  /** Moving least squares of scattered data: at every place a polynomial of its own. */
+  movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
+    return new MovingLeastSquares(this.#heap, options);
+  }
+
+  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
+  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
+    return new DiscreteGreen(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
   }
 }
 

@@ -1,4 +1,5 @@
 // What the tests of scattered interpolation share.
+import fc from 'fast-check';
 import { expect } from 'vitest';
 import { HandlebodyError } from '../../../wasm/ts/index.ts';
 
@@ -71,4 +72,43 @@ export function expectClose(actual: ArrayLike<number>, expected: ArrayLike<numbe
   expect(actual.length).toBe(expected.length);
   const error = largest(Array.from(actual, (x, i) => x - (expected[i] ?? Number.NaN)));
   expect(error, what).toBeLessThan(tolerance * Math.max(1, largest(expected)));
+}
+
+/** NaN where a number is missing or is NaN, which no bound lets through. */
+export function largestDifference(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  if (a.length !== b.length) return Number.NaN;
+  let most = 0;
+  for (let i = 0; i < a.length; i++) {
+    const apart = Math.abs((a[i] ?? Number.NaN) - (b[i] ?? Number.NaN));
+    if (!(apart <= most)) most = apart;
+  }
+  return most;
+}
+
+export interface PointSet {
+  readonly dimension: number;
+  readonly points: number[];
+  readonly values: number[];
+  readonly queries: number[];
+}
+
+/** Distinct points on a lattice, one value each, and a few queries in and around them. */
+export function pointSet({ dimensions = [1, 2, 3], least = (_dimension: number) => 1 } = {}): fc.Arbitrary<PointSet> {
+  return fc
+    .constantFrom(...dimensions)
+    .chain((dimension) => {
+      const place = fc.array(fc.integer({ min: -20, max: 20 }), { minLength: dimension, maxLength: dimension });
+      return fc.record({
+        dimension: fc.constant(dimension),
+        points: fc.uniqueArray(place, { minLength: least(dimension), maxLength: 30, selector: String }),
+        queries: fc.array(fc.double({ min: -30, max: 30, noNaN: true }), { minLength: 4 * dimension, maxLength: 4 * dimension }),
+        values: fc.array(fc.integer({ min: -100, max: 100 }), { minLength: 30, maxLength: 30 }),
+      });
+    })
+    .map(({ dimension, points, queries, values }) => ({
+      dimension,
+      points: points.flat(),
+      values: values.slice(0, points.length),
+      queries,
+    }));
 }
