@@ -166,6 +166,11 @@ HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 
+/* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
+ * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
+ * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
+HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
 #ifdef __cplusplus
 }
 #endif

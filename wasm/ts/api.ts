@@ -7,4 +7,5 @@ export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
+export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export type * from './types.ts';

@@ -5,6 +5,7 @@ import { Heap } from './heap.ts';
 import { Irbf } from './irbf.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -47,6 +48,11 @@ export class Handlebody {
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
+  }
+
+  /** Linear interpolation of scattered data on its Delaunay simplices. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
   }
 }
 
