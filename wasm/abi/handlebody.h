@@ -171,6 +171,62 @@ HB_API int32_t hb_shepard_create(const double* points, const double* values, uin
  * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
 HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
 
+/* Options of hb_rbf_create. */
+typedef struct hb_rbf_options {
+  double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
+  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers has it chosen */
+  double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
+  double support;        /* where the compact inverse multiquadric ends, in widths */
+  const double* widths;  /* one a center, or NULL */
+  const double* centers; /* center_count × dimension, or NULL for the points themselves */
+  const double* metric;  /* dimension × dimension, symmetric and positive definite, or NULL for Euclidean distances */
+  uint32_t center_count; /* of `centers`, and of `widths` */
+  uint32_t kernel;       /* 0 linear, 1 cubic, 2 thin plate, 3 Gaussian, 4 multiquadric, 5 inverse multiquadric, 6 inverse quadratic, 7 quintic,
+                            8 polyharmonic, 9 10 11 Wendland C0 C2 C4, 12 Buhmann, 13 compact inverse multiquadric, 14 clamped plate, 15 the host's */
+  uint32_t host_kernel;  /* of kernel 15: the number that the imported hb_host_kernel(number, derivative, s) is asked for */
+  int32_t degree;        /* of the polynomial tail, -1 (none) to 2 */
+  int32_t order;         /* of polyharmonic and clamped plate: 2 is biharmonic, 3 triharmonic */
+  uint32_t normalized;   /* 1 divides the kernels by their sum */
+  uint32_t width_choice; /* 0 as given, 1 from the spacing, 2 least leave-one-out error */
+  uint32_t robust;       /* with fewer centers than points: 0 least squares, 1 least absolute misfits, 2 least median of squares */
+} hb_rbf_options;
+
+/* What a fit is worth; lengths in units of the points. */
+typedef struct hb_rbf_report {
+  double condition; /* estimated 1-norm condition number of the equations */
+  double residual;  /* largest misfit at a point */
+  double spacing;   /* mean distance of a point to its nearest neighbor; 0 for a single point */
+  double least_width;
+  double largest_width;
+  double suggested_width; /* where ill conditioned: a width, and a smoothing, that are not; 0 where there is none */
+  double suggested_smoothing;
+  uint32_t center_count;
+  uint32_t near_count; /* pairs of points closer than a thousandth of the spacing, at most 8 of them listed */
+  uint32_t near_pairs[16];
+} hb_rbf_report;
+
+/* Radial basis interpolation. Fails with the codes above, INVALID_OPTION, OUT_OF_MEMORY (before anything is allocated), KERNEL_FAILED or
+ * SYSTEM_SINGULAR. */
+HB_API int32_t hb_rbf_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, hb_interpolant** interpolant);
+
+/* HB_OK where the matrices of an hb_rbf_create with such counts may be allocated (`center_count` 0 for one at each point), else
+ * OUT_OF_MEMORY: asked before the points are copied in. */
+HB_API int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_count, int32_t degree);
+
+/* These take what hb_rbf_create made, and fail with INVALID_OPTION for another method's. Coefficients: center_count × outputs, of the
+ * kernels in the caller's units. Leave-one-out: count × outputs errors, value less prediction without the point. Row weights: count,
+ * below 1 where a robust fit mistrusts a point. */
+HB_API int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* report);
+HB_API int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out);
+HB_API int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out);
+HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
+
+/* Looks for bad data by the RBF of `options`. `method` 0 row sums of the function norm, 1 what the norm loses without the point, 2 distance
+ * from the smoothed interpolant; taken out one after another while the highest score is more than `threshold` robust standard
+ * deviations above the median, `most` at the most. `scores` count; `outliers` and `heights` have room for `most`; `smoothing` the one
+ * used. Fails as hb_rbf_create does. */
+HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores, uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing);
+
 #ifdef __cplusplus
 }
 #endif

@@ -140,4 +140,14 @@ void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd
   for (Index j = n; j-- > 0;) b.col(j).swap(b.col(pivots[static_cast<std::size_t>(j)]));
 }
 
+void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, double* x) {
+  const Index n = factor.rows();
+  for (Index j = 0; j < n; ++j) std::swap(x[j], x[pivots[static_cast<std::size_t>(j)]]);
+  for (Index j = 0; j < n; ++j) add_columns(x + j + 1, n - 1 - j, factor.data() + n * j + j + 1, n, x + j, 1, 1, -1);
+  for (Index j = n; j-- > 0;) {
+    x[j] /= factor(j, j);
+    add_columns(x, j, factor.data() + n * j, n, x + j, 1, 1, -1);
+  }
+}
+
 }  // namespace handlebody
