@@ -11,6 +11,7 @@ import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
@@ -59,6 +60,11 @@ export class Handlebody {
   /** Points that a radial basis interpolant has to bend for. */
   findOutliers(options: OutlierOptions): OutlierReport {
     return findOutliers(this.#heap, options);
+  }
+
+  /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
   }
 
   /** Shepard's inverse-distance weighting of scattered data. */
