@@ -166,6 +166,10 @@ HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 
+/* Natural neighbor interpolation (Sibson) of points in the plane: INVALID_SHAPE for another dimension than 2. `outside` the convex hull
+ * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */
+HB_API int32_t hb_natural_neighbor_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
 #ifdef __cplusplus
 }
 #endif
