@@ -263,6 +263,10 @@ HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* 
 
 HB_API void hb_discrete_green_free(hb_discrete_green* green);
 
+/* Natural neighbor interpolation (Sibson) of points in the plane: INVALID_SHAPE for another dimension than 2. `outside` the convex hull
+ * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */
+HB_API int32_t hb_natural_neighbor_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
 #ifdef __cplusplus
 }
 #endif

@@ -19,7 +19,9 @@ export {
   type MovingLeastSquaresOptions,
   type MovingWeight,
 } from './moving-least-squares.ts';
+export { NATURAL_NEIGHBOR_DEFAULTS, NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
+export type { OutsideHull } from './outside-hull.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 export { Rbf } from './rbf.ts';
 export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';

@@ -6,6 +6,7 @@ import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
+import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
@@ -65,6 +66,11 @@ export class Handlebody {
   /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
   simplexLinear(options: SimplexLinearOptions): SimplexLinear {
     return new SimplexLinear(this.#heap, options);
+  }
+
+  /** Sibson's natural neighbor interpolation of scattered data in the plane. */
+  naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
+    return new NaturalNeighbor(this.#heap, options);
   }
 
   /** Shepard's inverse-distance weighting of scattered data. */

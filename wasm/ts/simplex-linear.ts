@@ -1,15 +1,13 @@
-import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant, type ScatteredData } from './interpolant.ts';
+import { type OutsideHull, outsideNumber } from './outside-hull.ts';
 
 export interface SimplexLinearOptions extends ScatteredData {
   /** What to say outside the convex hull of the points: the value at its nearest point, or NaN. */
-  readonly outside?: 'nearest' | 'nan';
+  readonly outside?: OutsideHull;
 }
 
 export const SIMPLEX_LINEAR_DEFAULTS = { outside: 'nearest' } as const;
-
-const OUTSIDE = { nearest: 0, nan: 1 } as const;
 
 /**
  * Linear interpolation on the Delaunay simplices of the points (2014 course, §4.1), in any dimension: f(x) = Σ wₖ fₖ with the
@@ -26,15 +24,9 @@ export class SimplexLinear extends Interpolant {
   /** @internal Use `Handlebody.simplexLinear`. */
   constructor(heap: Heap, options: SimplexLinearOptions) {
     const { outside } = { ...SIMPLEX_LINEAR_DEFAULTS, ...options };
-    if (!Object.hasOwn(OUTSIDE, outside)) {
-      throw new HandlebodyError('invalid-option', {
-        message: `There is no rule called "${outside}" for queries outside the hull.`,
-        remedy: `Use one of: ${Object.keys(OUTSIDE).join(', ')}.`,
-        culprit: { kind: 'option', index: -1 },
-      });
-    }
+    const rule = outsideNumber(outside);
     super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>
-      e.hb_simplex_linear_create(points, values, count, dimension, outputs, OUTSIDE[outside], out),
+      e.hb_simplex_linear_create(points, values, count, dimension, outputs, rule, out),
     );
   }
 }

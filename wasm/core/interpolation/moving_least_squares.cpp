@@ -171,7 +171,7 @@ void MovingLeastSquares::set_slopes(const double* query, int degree, const doubl
     for (std::size_t row = 0; row < rows; ++row) {
       double& slope = slopes[rows_[row] * d + axis];
       slope = (slope + roots_[static_cast<Index>(row)] * solution_[static_cast<Index>(row)]) / unit_;
-      if (rows_[row] != own_) others += slope;
+      if (static_cast<Index>(rows_[row]) != own_) others += slope;
     }
     slopes[own_ * d + axis] = -others;
   }
