@@ -63,6 +63,11 @@ export class FieldPanel {
     return this.#side;
   }
 
+  /** Of the processor's, not the graphics card's: many short lines come out several times sooner, most of all where there is no card. */
+  get context(): CanvasRenderingContext2D {
+    return this.canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
+  }
+
   name({ name, detail }: Label, slot: number): void {
     if (this.#name.textContent !== name) this.#name.textContent = name;
     if (this.#detail.textContent !== detail) this.#detail.textContent = detail;
@@ -80,9 +85,8 @@ export class FieldPanel {
 
   /** Colors, lines of equal value, and where the section runs. */
   paint(size: number, colors: ColorMap, isolines: boolean, section: Line | undefined): void {
-    const context = this.canvas.getContext('2d');
+    const context = this.context;
     const { values } = this.field;
-    if (!context || this.#side === 0) return;
     if (this.#pixels?.width !== size) {
       this.#small.width = this.#small.height = size;
       this.#pixels = new ImageData(size, size);
@@ -90,7 +94,7 @@ export class FieldPanel {
     }
     const words = this.#words as Uint32Array;
     for (let i = 0; i < values.length; i++) words[i] = colors.packed(values[i] as number);
-    this.#small.getContext('2d')?.putImageData(this.#pixels as ImageData, 0, 0);
+    this.#small.getContext('2d', { willReadFrequently: true })?.putImageData(this.#pixels as ImageData, 0, 0);
     context.imageSmoothingQuality = 'high';
     context.clearRect(0, 0, this.#side, this.#side);
     context.drawImage(this.#small, 0, 0, this.#side, this.#side);

@@ -111,7 +111,7 @@ export class PlaneView implements View {
       panel.name(fit.label, fit.model.slot);
       panel.stale = fit.problem !== undefined;
       panel.field.sample(fit, queries, cardinal ? picked : -1, experiment);
-      if (surfaces) surfaces.paint(panel.canvas, panel.field.values, size, colors, experiment, cardinal);
+      if (surfaces) surfaces.paint(panel.context, panel.field.values, size, colors, experiment, cardinal);
       else panel.paint(size, colors, show.isolines, line);
     }
     if (fits.length > 0) this.#pace.took(performance.now() - start, size);

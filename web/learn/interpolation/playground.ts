@@ -261,6 +261,8 @@ export class Playground implements PointActions {
   #restSoon(): void {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
+      // A slow machine has not drawn yet what is to be at rest.
+      if (this.#frame !== 0) return this.#restSoon();
       this.view?.refine();
       this.#audience.rest(this, summary(this.experiment, this.fits, outlierText(this.found)));
     }, REST);

@@ -63,7 +63,7 @@ export class Surfaces {
   }
 
   paint(
-    canvas: HTMLCanvasElement,
+    context: CanvasRenderingContext2D,
     values: Float64Array,
     size: number,
     colors: ColorMap,
@@ -105,11 +105,11 @@ export class Surfaces {
     this.#camera.up.set(0, 1, 0);
     if (this.#tilt === 90) this.#camera.up.set(-Math.sin(turn), 0, -Math.cos(turn));
     this.#camera.lookAt(0, 0, 0);
-    this.#renderer.setSize(canvas.width, canvas.height, false);
+    const { width, height } = context.canvas;
+    this.#renderer.setSize(width, height, false);
     this.#renderer.render(this.#scene, this.#camera);
-    const context = canvas.getContext('2d');
-    context?.clearRect(0, 0, canvas.width, canvas.height);
-    context?.drawImage(this.#renderer.domElement, 0, 0);
+    context.clearRect(0, 0, width, height);
+    context.drawImage(this.#renderer.domElement, 0, 0);
   }
 
   #shade(packed: number): void {
