@@ -62,14 +62,17 @@ export class FieldPanel {
       this.area,
       h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
     );
-    new ResizeObserver(() => {
-      const width = this.area.clientWidth;
-      if (width === this.#width || width === 0) return;
-      this.#width = width;
-      this.#side = Math.round(width * devicePixelRatio);
-      this.canvas.width = this.canvas.height = this.#side;
-      resized();
-    }).observe(this.area);
+    new ResizeObserver(() => this.measure() && resized()).observe(this.area);
+  }
+
+  /** Takes the size that the page gives; whether it is another one. */
+  measure(): boolean {
+    const width = this.area.clientWidth;
+    if (width === this.#width || width === 0) return false;
+    this.#width = width;
+    this.#side = Math.round(width * devicePixelRatio);
+    this.canvas.width = this.canvas.height = this.#side;
+    return true;
   }
 
   get side(): number {

@@ -1,20 +1,12 @@
-import type { Handlebody, Interpolant, MovingWeight } from '../../../wasm/ts/index.ts';
+import type { MovingWeight } from '../../../wasm/ts/index.ts';
 import { type Experiment, type Model, newModel, type Settings } from './experiment.ts';
 import type { Data, Kind, Label } from './kind.ts';
 import { type Choice, complete } from './parameter.ts';
 import { KERNEL_NAMES, rbf } from './rbf-kind.ts';
 import { brief } from './words.ts';
 
-type Maker = (options: Record<string, unknown>) => Interpolant;
-
-/** Methods that the solver may not have yet. */
-function call(hb: Handlebody, method: string, options: Record<string, unknown>): Interpolant {
-  return (hb as unknown as Record<string, Maker>)[method]?.(options) as Interpolant;
-}
-
 const shepard: Kind = {
   id: 'shepard',
-  method: 'shepard',
   dimensions: [1, 2],
   parameters: [
     { type: 'range', id: 'power', label: 'Power p', initial: 2, low: 0.5, high: 8, scale: 'even', step: 0.1 },
@@ -29,7 +21,6 @@ const shepard: Kind = {
 
 const movingLeastSquares: Kind = {
   id: 'mls',
-  method: 'movingLeastSquares',
   dimensions: [1, 2],
   parameters: [
     {
@@ -132,25 +123,22 @@ const outside: Choice = {
 
 const simplexLinear: Kind = {
   id: 'linear',
-  method: 'simplexLinear',
   dimensions: [1, 2],
   parameters: [outside],
   label: (_, dimension) => ({ name: dimension === 1 ? 'Piecewise linear' : 'Linear on triangles', detail: '' }),
-  make: (hb, data, settings) => call(hb, 'simplexLinear', { ...data, outside: settings.outside }),
+  make: (hb, data, settings) => hb.simplexLinear({ ...data, outside: settings.outside as 'nearest' | 'nan' }),
 };
 
 const naturalNeighbor: Kind = {
   id: 'natural',
-  method: 'naturalNeighbor',
   dimensions: [2],
   parameters: [outside],
   label: () => ({ name: 'Natural neighbor', detail: '' }),
-  make: (hb, data, settings) => call(hb, 'naturalNeighbor', { ...data, outside: settings.outside }),
+  make: (hb, data, settings) => hb.naturalNeighbor({ ...data, dimension: 2, outside: settings.outside as 'nearest' | 'nan' }),
 };
 
 const tensionSpline: Kind = {
   id: 'tension',
-  method: 'tensionSpline',
   dimensions: [1, 2],
   parameters: [
     { type: 'range', id: 'alpha', label: 'α, against curvature', initial: 1, low: 1e-3, high: 100, scale: 'log-zero' },
@@ -206,10 +194,9 @@ export function labelOf(model: Model, dimension: 1 | 2): Label {
   return kindOf(model.kind)?.label(model.settings, dimension) ?? { name: model.kind, detail: '' };
 }
 
-/** Whether the solver makes this kind, and in this dimension. */
-export function isOffered(hb: Handlebody, id: string, dimension: 1 | 2): boolean {
-  const kind = kindOf(id);
-  return !!kind && kind.dimensions.includes(dimension) && kind.method in hb;
+/** Whether there is such a kind, and in this dimension. */
+export function isOffered(id: string, dimension: 1 | 2): boolean {
+  return kindOf(id)?.dimensions.includes(dimension) ?? false;
 }
 
 /** What the "add" menu holds, in groups. */

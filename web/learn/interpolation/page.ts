@@ -37,7 +37,7 @@ export class Page {
     });
     this.#playground = playground;
     this.#film = new Film(hb);
-    this.#models = new ModelList(hb, {
+    this.#models = new ModelList({
       add: (kind, settings) => {
         const fit = playground.addModel(kind, settings);
         if (fit) requestAnimationFrame(() => this.#models.reveal(fit.model.key));

@@ -108,6 +108,7 @@ export class PlaneView implements View {
     const { size, queries } = this.#grid;
     for (const fit of fits) {
       const panel = this.#panels.get(fit.model.key);
+      if (panel?.side === 0) panel.measure();
       if (!panel || panel.side === 0) continue;
       panel.name(fit.label, fit.model.slot);
       panel.stale = fit.problem !== undefined;

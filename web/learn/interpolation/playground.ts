@@ -18,7 +18,7 @@ import {
 } from './experiment.ts';
 import { Fit } from './fit.ts';
 import type { PointActions } from './handles.ts';
-import { dataOf, isOffered, kindOf, modelOf } from './interpolants.ts';
+import { dataOf, kindOf, modelOf } from './interpolants.ts';
 import { outlierText, searchOutliers, summary } from './report.ts';
 import type { View } from './view.ts';
 
@@ -65,7 +65,6 @@ export class Playground implements PointActions {
   start(experiment: Experiment): void {
     for (const fit of this.fits) fit.dispose();
     this.emphasis = 0;
-    experiment.models = experiment.models.filter(({ kind }) => isOffered(this.hb, kind, experiment.dimension));
     this.experiment = experiment;
     this.fits = experiment.models.map((model) => new Fit(model, experiment.dimension));
     this.#restructured = true;
