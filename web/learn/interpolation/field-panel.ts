@@ -2,11 +2,12 @@ import { h } from '../../ui/dom.ts';
 import type { ColorMap } from './color-map.ts';
 import type { Experiment } from './experiment.ts';
 import { FieldValues } from './field.ts';
-import { Handles, type PointActions } from './handles.ts';
+import { type Board, Handles } from './handles.ts';
 import { drawIsolines, levels } from './isolines.ts';
 import type { Label } from './kind.ts';
 import type { Line } from './section.ts';
 import { swatch } from './swatch.ts';
+import type { PlaneActions, Relief } from './view.ts';
 
 /** One interpolant in the plane: a picture, its name, and the points over it. */
 export class FieldPanel {
@@ -18,6 +19,8 @@ export class FieldPanel {
   readonly #name = h('span', { class: 'name' });
   readonly #detail = h('span', { class: 'detail' });
   readonly #small = h('canvas');
+  /** Where points lie over a surface; nothing over a map. */
+  relief: Relief | undefined;
   #pixels: ImageData | undefined;
   #words: Uint32Array | undefined;
   /** Device pixels of a side. */
@@ -25,16 +28,26 @@ export class FieldPanel {
   #width = 0;
 
   /** `first`: its handles are those that the keyboard reaches. */
-  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PointActions, resized: () => void) {
-    const board = {
-      screen: (i: number) => {
+  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PlaneActions, resized: () => void) {
+    const board: Board = {
+      screen: (i) => {
         const [left, right, bottom, top] = experiment().frame;
         const [x, y] = actions.placeOf(i);
-        return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width] as const;
+        if (this.relief) {
+          const [across, down] = this.relief.screen(experiment(), i);
+          return [across * this.#width, down * this.#width];
+        }
+        return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width];
       },
-      place: (px: number, py: number) => {
+      place: (px, py) => {
+        if (this.relief) return undefined;
         const [left, right, bottom, top] = experiment().frame;
-        return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)] as const;
+        return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)];
+      },
+      drag: (i, px, py) => {
+        if (this.relief) return actions.setValue(i, this.relief.value(experiment(), i, py / this.#width));
+        const place = board.place(px, py);
+        if (place) actions.move(i, ...place);
       },
       get spans() {
         const [left, right, bottom, top] = experiment().frame;

@@ -105,6 +105,16 @@ export class Playground implements PointActions {
     this.#change('all');
   }
 
+  hold(i: number): () => void {
+    const [place, value] = [this.placeOf(i), this.experiment.values[i] as number];
+    return () => {
+      if (i >= this.count) return;
+      setPlace(this.experiment, i, ...place);
+      this.experiment.values[i] = value;
+      this.#change('all');
+    };
+  }
+
   raise(i: number, hundredths: number): void {
     const { range, values, dimension } = this.experiment;
     if (dimension === 2) this.setValue(i, (values[i] as number) + ((range[1] - range[0]) * hundredths) / 100);
