@@ -31,6 +31,9 @@ export class Page {
 
   constructor(hb: Handlebody) {
     const playground = new Playground(hb, {
+      stir: () => {
+        byId('playground').dataset.rest = 'no';
+      },
       structure: () => this.#structure(),
       frame: () => this.#frame(),
       rest: (_, said) => this.#rest(said),
@@ -61,7 +64,7 @@ export class Page {
     byId('tools').append(
       h('button', { type: 'button', class: 'button small', id: 'add-point', onclick: () => playground.add() }, 'Add a point'),
       this.#remove,
-      h('button', { type: 'button', class: 'button small', onclick: () => playground.fitFrame() }, 'Fit'),
+      h('button', { type: 'button', class: 'button small', onclick: () => playground.fitFrame() }, 'Fit view'),
     );
     this.#picture.after(this.#legend.element, this.#caption.element, h('nav', { 'aria-label': 'Figures' }, this.#film.element));
     byId('panel').append(this.#models.element, this.#show.element, this.#table.element);
@@ -116,7 +119,6 @@ export class Page {
   }
 
   #frame(): void {
-    byId('playground').dataset.rest = 'no';
     const { experiment, tolerance, found, view, fits } = this.#playground;
     this.#models.update(tolerance);
     this.#show.update(experiment, outlierText(found));

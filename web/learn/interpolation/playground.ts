@@ -24,6 +24,8 @@ import type { View } from './view.ts';
 
 /** The parts of the page that show the experiment. */
 export interface Audience {
+  /** Something has changed, and is drawn with the next frame. */
+  stir(): void;
   /** Interpolants came or went, or all is new. */
   structure(playground: Playground): void;
   /** Something moved: once a frame at the most. */
@@ -246,6 +248,7 @@ export class Playground implements PointActions {
 
   #change(unsolved: Set<number> | 'all', anew = true): void {
     this.#anew ||= anew;
+    this.#audience.stir();
     if (unsolved === 'all' || this.#unsolved === 'all') this.#unsolved = 'all';
     else for (const key of unsolved) this.#unsolved.add(key);
     this.#frame ||= requestAnimationFrame(() => this.#run());

@@ -5,11 +5,15 @@ import {
   Color,
   DirectionalLight,
   DoubleSide,
+  Float32BufferAttribute,
   InstancedMesh,
+  LineBasicMaterial,
+  LineLoop,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
   OrthographicCamera,
+  Plane,
   Scene,
   SphereGeometry,
   Vector3,
@@ -22,6 +26,9 @@ import type { Relief } from './view.ts';
 
 /** Height of the color range, where the picture is one wide. */
 const HEIGHT = 0.55;
+/** How far surfaces go on beyond the range before they are cut off, in ranges from its middle; and what they are taken for beyond that. */
+const REACH = 0.8;
+const FAR = 20;
 
 /** Fields as surfaces over the plane: one renderer draws them all, one after another, and copies each into its own canvas. */
 export class Surfaces implements Relief {
@@ -30,7 +37,11 @@ export class Surfaces implements Relief {
   readonly #renderer = new WebGLRenderer({ antialias: true, alpha: true });
   readonly #scene = new Scene();
   readonly #camera = new OrthographicCamera(-0.76, 0.76, 0.76, -0.76, -4, 4);
-  readonly #material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide });
+  readonly #material = new MeshLambertMaterial({
+    vertexColors: true,
+    side: DoubleSide,
+    clippingPlanes: [new Plane(new Vector3(0, 1, 0), REACH * HEIGHT), new Plane(new Vector3(0, -1, 0), REACH * HEIGHT)],
+  });
   readonly #geometry = new BufferGeometry();
   readonly #mesh = new Mesh(this.#geometry, this.#material);
   readonly #balls = new InstancedMesh(new SphereGeometry(0.022, 16, 12), new MeshLambertMaterial(), MOST_POINTS);
@@ -47,7 +58,8 @@ export class Surfaces implements Relief {
   constructor(redraw: () => void) {
     const light = new DirectionalLight(0xffffff, 2.2);
     light.position.set(-0.5, 1.5, 0.8);
-    this.#scene.add(new AmbientLight(0xffffff, 1.4), light, this.#mesh, this.#balls);
+    this.#renderer.localClippingEnabled = true;
+    this.#scene.add(new AmbientLight(0xffffff, 1.4), light, this.#mesh, this.#balls, floor());
     this.#balls.frustumCulled = this.#mesh.frustumCulled = false;
     this.#renderer.domElement.addEventListener('webglcontextrestored', redraw);
     const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
@@ -83,8 +95,7 @@ export class Surfaces implements Relief {
     [this.#low, this.#high] = [low, high];
     for (let i = 0; i < values.length; i++) {
       const value = values[i] as number;
-      // Beyond the range a little further, then cut off.
-      const level = Number.isNaN(value) ? 0 : Math.min(Math.max((value - low) / (high - low), -0.3), 1.3);
+      const level = Number.isNaN(value) ? 0 : Math.min(Math.max((value - low) / (high - low), -FAR), FAR);
       positions.setY(i, (level - 0.5) * HEIGHT);
       this.#shade(colors.packed(value));
       shades.setXYZ(i, this.#color.r, this.#color.g, this.#color.b);
@@ -167,4 +178,12 @@ export class Surfaces implements Relief {
     this.#geometry.setAttribute('color', new BufferAttribute(new Float32Array(3 * size * size), 3));
     this.#geometry.setIndex(new BufferAttribute(triangles, 1));
   }
+}
+
+/** The square that the surface stands over, at the lower end of the range. */
+function floor(): LineLoop {
+  const y = -HEIGHT / 2;
+  const corners = [-0.5, y, -0.5, 0.5, y, -0.5, 0.5, y, 0.5, -0.5, y, 0.5];
+  const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(corners, 3));
+  return new LineLoop(geometry, new LineBasicMaterial({ color: 0x8f8c86 }));
 }
