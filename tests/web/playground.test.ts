@@ -198,7 +198,7 @@ describe('interpolants', () => {
     expect(new Set(dashes).size).toBe(2);
 
     const before = await curves.nth(1).getAttribute('d');
-    await page.getByLabel('Kernel').last().selectOption('multiquadric');
+    await page.getByLabel('Kernel', { exact: true }).last().selectOption('multiquadric');
     await soon(() => curves.nth(1).getAttribute('d')).not.toBe(before);
     expect(await page.locator('.names .name').allTextContents()).toEqual(['Shepard', 'Multiquadric']);
     await page.getByRole('checkbox', { name: /Shepard/ }).uncheck();
@@ -308,9 +308,9 @@ describe('the address', () => {
     await page.keyboard.press('PageUp');
     await page.getByLabel('Smoothing').last().focus();
     await page.keyboard.press('Home');
+    const hash = '#from=fig-18&p=1,1.7;2.2,2.6;3,1.1;4.6,3.2;6.6,2.7;7.4,1;9,1.9&m=rbf:kernel=cubic~rbf:kernel=cubic';
+    await soon(() => page.evaluate(() => location.hash)).toBe(hash);
     await rested(page);
-    const hash = await page.evaluate(() => location.hash);
-    expect(hash).toBe('#from=fig-18&p=1,1.7;2.2,2.6;3,1.1;4.6,3.2;6.6,2.7;7.4,1;9,1.9&m=rbf:kernel=cubic~rbf:kernel=cubic');
     const curves = (of: typeof page) =>
       of.locator('.main-chart .curves path').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')));
     const drawn = await curves(page);
