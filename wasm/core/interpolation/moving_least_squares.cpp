@@ -51,7 +51,10 @@ Result<MovingLeastSquares> MovingLeastSquares::create(const Eigen::Ref<const Mat
   if (static_cast<double>(data->points.rows()) * static_cast<double>(count) > 1 << 26)
     return Error(HB_ERROR_OUT_OF_MEMORY, {data->points.rows(), " points and ", count, " polynomials take more than 512 MiB."},
                  {"Use a lower degree or fewer points."});
-  const Matrix inner = (data->points.rowwise() - data->points.row(0)) / (data->diagonal > 0 ? data->diagonal : 1);
+  Matrix inner = data->points;
+  for (Index i = 0; i < inner.rows(); ++i)
+    for (Index axis = 0; axis < inner.cols(); ++axis)
+      inner(i, axis) = (inner(i, axis) - data->points(0, axis)) / (data->diagonal > 0 ? data->diagonal : 1);
   if (auto unisolvent = check_unisolvent(inner, options.degree); !unisolvent) return unisolvent.error();
   return MovingLeastSquares(std::move(*data), options);
 }
