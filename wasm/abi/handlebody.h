@@ -163,6 +163,12 @@ HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double*
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
+/* Splines with tension in 1, 2 or 3 dimensions: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space,
+ * through the points for a smoothing of 0. `ends` 0: that; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only,
+ * with zero slope at both ends and constant beyond. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+ * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double alpha, double beta, double gamma, double smoothing, uint32_t ends, hb_interpolant** interpolant);
+
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 
@@ -172,10 +178,15 @@ HB_API int32_t hb_shepard_create(const double* points, const double* values, uin
  * INVALID_OPTION or OUT_OF_MEMORY. */
 HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
 
+/* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
+ * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
+ * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
+HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
-  double smoothing;      /* λ ≥ 0 of R + λI; for hb_find_outliers -1 has it chosen */
+  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers has it chosen */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   const double* widths;  /* one a center, or NULL */

@@ -11,6 +11,8 @@ import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -60,6 +62,11 @@ export class Handlebody {
     return findOutliers(this.#heap, options);
   }
 
+  /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
+  }
+
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
@@ -73,6 +80,11 @@ export class Handlebody {
   /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
   discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
     return new DiscreteGreen(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
   }
 }
 

@@ -8,11 +8,11 @@ export type OutlierMethod = 'row-sum' | 'leave-one-out' | 'residual';
 export interface OutlierOptions
   extends Omit<RbfOptions, 'weightDecay' | 'normalized' | 'centers' | 'robust' | 'smoothing' | 'onWarning'> {
   /**
-   * `'row-sum'`: the point's share of the function norm wᵀRw (2014 course, §5.3), which approximates `'leave-one-out'`: what the norm loses
-   * without the point, exactly. `'residual'`: the distance of the value from the smoothed interpolant.
+   * `'residual'`: the distance of the value from the smoothed interpolant. `'leave-one-out'`: what the function norm wᵀRw loses without the
+   * point, exactly. `'row-sum'`: the point's row of that norm, which only approximates it (2014 course, §5.3) and may name a neighbor.
    */
   readonly method?: OutlierMethod;
-  /** λ of R + λI. `'auto'`: none for the norms, a tenth of the mean kernel for the residual. */
+  /** λ of R + λI. `'auto'`: ½ for kernels with a width, the points' spacing to the power of the kernel's for r, r³ and the like. */
   readonly smoothing?: number | 'auto';
   /** Robust standard deviations above the median score. */
   readonly threshold?: number;
@@ -20,7 +20,7 @@ export interface OutlierOptions
   readonly most?: number;
 }
 
-export const OUTLIER_DEFAULTS = { method: 'residual', smoothing: 'auto', threshold: 4, most: 10 } as const;
+export const OUTLIER_DEFAULTS = { method: 'residual', smoothing: 'auto', threshold: 8, most: 10 } as const;
 
 const METHODS: readonly OutlierMethod[] = ['row-sum', 'leave-one-out', 'residual'];
 
@@ -32,7 +32,7 @@ export interface OutlierReport {
   /** The score of each when it was found, in robust standard deviations above the median. */
   readonly heights: readonly number[];
   readonly threshold: number;
-  /** Scores of all points before any is taken out, in units of the values (residual) or of the function norm. */
+  /** Scores of all points before any is taken out, in units of the values (residual) or of the function norm; row sums may be negative. */
   readonly scores: Float64Array;
   /** The λ that was used. */
   readonly smoothing: number;

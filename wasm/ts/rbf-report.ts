@@ -2,7 +2,7 @@ import type { KernelName } from './kernels.ts';
 
 /** What a fit is worth. Lengths in units of the points. */
 export interface RbfReport {
-  readonly kernel: KernelName | 'custom';
+  readonly kernel: KernelName | 'custom' | 'tension';
   /** The width that was used, or the mean of several. */
   readonly width: number;
   readonly degree: number;
@@ -34,4 +34,9 @@ export interface RbfWarning {
   readonly points?: readonly number[];
   /** Options that would do better. */
   readonly suggestion?: { readonly width?: number; readonly smoothing?: number };
+}
+
+/** What becomes of a warning that nobody asked for. */
+export function printWarning({ message, remedy }: RbfWarning): void {
+  console.warn(`${message} ${remedy}`);
 }

@@ -1,4 +1,4 @@
-import { KERNELS, type KernelName } from './kernels.ts';
+import { KERNELS } from './kernels.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import type { RbfReport, RbfWarning } from './rbf-report.ts';
 
@@ -50,7 +50,7 @@ const illConditioned: Check = ({ condition, width, spacing, kernel }, { options,
   ];
 };
 
-const missesPoints: Check = ({ residual, centers }, { options }) => {
+const missesPoints: Check = ({ kernel, residual, centers }, { options }) => {
   const interpolates = !options.smoothing && !options.weightDecay && !options.centers;
   if (!interpolates) return [];
   let largest = 0;
@@ -60,7 +60,10 @@ const missesPoints: Check = ({ residual, centers }, { options }) => {
     {
       code: 'misses-points',
       message: `The surface misses its ${centers} points by up to ${short(residual)}, which is rounding error.`,
-      remedy: 'Try a smaller width, another kernel, or some smoothing.',
+      remedy:
+        kernel === 'tension'
+          ? 'Try some smoothing, or weights that differ less.'
+          : 'Try a smaller width, another kernel, or some smoothing.',
     },
   ];
 };
@@ -107,9 +110,8 @@ const narrowWidth: Check = ({ width, spacing, kernel }, { options }) => {
 };
 
 const notDefinite: Check = ({ kernel }, { dimension }) => {
-  const most = kernel === 'custom' ? 0 : KERNELS[kernel].definiteToDimension;
-  // Of a kernel of their own the callers know, or want to find out.
-  if (kernel === 'custom' || dimension <= most) return [];
+  // Of a kernel of their own the callers know, or want to find out; tension's is definite where it is defined.
+  if (kernel === 'custom' || kernel === 'tension' || dimension <= KERNELS[kernel].definiteToDimension) return [];
   return [
     {
       code: 'not-definite',
@@ -130,8 +132,8 @@ const unequalWidths: Check = (_, { options }) => {
   ];
 };
 
-function hasWidth(kernel: KernelName | 'custom'): boolean {
-  return kernel === 'custom' || KERNELS[kernel].hasWidth;
+function hasWidth(kernel: RbfReport['kernel']): boolean {
+  return kernel === 'custom' || (kernel !== 'tension' && KERNELS[kernel].hasWidth);
 }
 
 /** Two or three significant digits, as people write them. */

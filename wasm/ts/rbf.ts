@@ -1,10 +1,10 @@
-import { type Exports, LAYOUT } from './abi.generated.ts';
+import type { Exports } from './abi.generated.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant } from './interpolant.ts';
 import type { KernelName } from './kernels.ts';
 import { type RbfOptions, resolve, writeOptions } from './rbf-options.ts';
-import type { RbfReport, RbfWarning } from './rbf-report.ts';
-import { warningsOf } from './rbf-warnings.ts';
+import { readReport } from './rbf-read-report.ts';
+import { printWarning, type RbfReport } from './rbf-report.ts';
 
 /**
  * Radial basis interpolation (2014 course, §4.4 and §5): f(x) = Σ wᵢ φ(‖x − xᵢ‖/width) + polynomial. Factored once; evaluated, with
@@ -43,13 +43,18 @@ export class Rbf extends Interpolant {
     this.#degree = resolved.degree;
     this.#hostKernel = resolved.hostKernel;
     this.#options = options;
-    const tell = options.onWarning ?? ((warning: RbfWarning) => console.warn(`${warning.message} ${warning.remedy}`));
-    for (const warning of this.report().warnings) tell(warning);
+    for (const warning of this.report().warnings) (options.onWarning ?? printWarning)(warning);
   }
 
   /** What the fit is worth, and what to mind. */
   report(): RbfReport {
-    this.#report ??= this.#readReport();
+    this.#report ??= readReport(this.heap, this.handle, {
+      kernel: this.#kernel,
+      degree: this.#degree,
+      options: this.#options,
+      dimension: this.dimension,
+      merged: this.merged,
+    });
     return this.#report;
   }
 
@@ -83,44 +88,5 @@ export class Rbf extends Interpolant {
       this.heap.kernels.throwFailure();
       return this.heap.f64(out, length).slice();
     });
-  }
-
-  #readReport(): RbfReport {
-    const layout = LAYOUT.hb_rbf_report;
-    const [numbers, counts] = this.heap.scope((scratch) => {
-      const out = scratch.reserve(layout.sizeof);
-      this.heap.check((e) => e.hb_rbf_get_report(this.handle, out));
-      return [
-        this.heap.f64(out, layout.center_count / 8).slice(),
-        this.heap.u32(out + layout.center_count, (layout.sizeof - layout.center_count) / 4).slice(),
-      ] as const;
-    });
-    const number = (name: 'condition' | 'residual' | 'spacing' | 'least_width' | 'largest_width') =>
-      numbers[layout[name] / 8] as number;
-    const suggestion = (name: 'suggested_width' | 'suggested_smoothing') => numbers[layout[name] / 8] || undefined;
-    const nearCount = counts[1] as number;
-    const pairs = Array.from(
-      { length: Math.min(nearCount, 8) },
-      (_, k) => [counts[2 + 2 * k], counts[3 + 2 * k]] as [number, number],
-    );
-    const base = {
-      kernel: this.#kernel,
-      width: (number('least_width') + number('largest_width')) / 2,
-      degree: this.#degree,
-      centers: counts[0] as number,
-      condition: number('condition'),
-      residual: number('residual'),
-      spacing: number('spacing'),
-    };
-    const warnings = warningsOf(base, {
-      options: this.#options,
-      dimension: this.dimension,
-      merged: this.merged,
-      nearCount,
-      pairs,
-      suggestedWidth: suggestion('suggested_width'),
-      suggestedSmoothing: suggestion('suggested_smoothing'),
-    });
-    return { ...base, warnings };
   }
 }

@@ -19,8 +19,8 @@ Vector score(Rbf& rbf, OutlierMethod method) {
   RadialBasis basis = rbf.basis();
   for (Index i = 0; i < n; ++i) {
     if (method == OutlierMethod::leave_one_out) {
-      const double inverse = sign * rbf.cardinal()(i, i);
-      const double c = coefficients.row(data.kept[static_cast<std::size_t>(i)]).norm() / basis.amplitude_of_scale();
+      const double inverse = sign * basis.amplitude_of_scale() * rbf.cardinal()(i, i);  // in the caller's units, as c
+      const double c = coefficients.row(data.kept[static_cast<std::size_t>(i)]).norm();
       squares[i] = c * c / inverse;
     } else if (method == OutlierMethod::row_sum) {
       basis.values(&data.points(i, 0), row.data());
@@ -34,11 +34,11 @@ Vector score(Rbf& rbf, OutlierMethod method) {
       squares[i] = (data.values.row(i).transpose() - fitted).squaredNorm();
     }
   }
-  for (double& number : squares) number = number > 0 ? std::sqrt(number) : 0;
+  for (double& number : squares) number = number > 0 ? std::sqrt(number) : -std::sqrt(-number);  // a row may take from the norm
   return squares;
 }
 
-double median(Vector numbers) {
+double median(const Vector& numbers) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return numbers[a] != numbers[b] ? numbers[a] < numbers[b] : a < b; };
   const Numbers order = sorted_indices(static_cast<std::size_t>(numbers.size()), before);
   const std::size_t half = order.size() / 2;
@@ -54,19 +54,13 @@ Result<Rbf> fit(const ScatteredData& data, const std::vector<std::uint32_t>& in,
   return Rbf::create(points, values, options);
 }
 
-/** A tenth of the mean size of the kernel between points. */
-double automatic_smoothing(const ScatteredData& data, const RbfOptions& options) {
-  const auto rbf = Rbf::create(data.points, data.values, options);
-  if (!rbf) return 0;
-  RadialBasis basis = rbf->basis();
-  Vector row(basis.size());
-  double sum = 0;
-  for (Index i = 0; i < data.points.rows(); ++i) {
-    basis.values(&data.points(i, 0), row.data());
-    sum += row.head(data.points.rows()).cwiseAbs().sum();
-  }
-  const auto n = static_cast<double>(data.points.rows());
-  return 0.1 * sum / (n * n * basis.amplitude_of_scale());
+/** What makes a fit between neighbors a compromise. */
+double automatic_smoothing(const Matrix& points, const Kernel& kernel) {
+  if (kernel.has_width()) return 0.5;  // of φ(0) = 1
+  const double spacing = points.rows() > 1 ? nearest_distances(points).mean() : 1;
+  double lambda = 1;
+  for (int e = kernel.homogeneity(); e > 0; --e) lambda *= spacing;
+  return lambda;
 }
 
 }  // namespace
@@ -85,7 +79,7 @@ Result<OutlierReport> find_outliers(const Eigen::Ref<const Matrix>& points, cons
   if (automatic) rbf_options.smoothing = 0;
   auto data = check_data(points, values, rbf_options.smoothing > 0 ? Coincident::keep : Coincident::merge);
   if (!data) return data.error();
-  if (automatic && options.method == OutlierMethod::residual) rbf_options.smoothing = automatic_smoothing(*data, rbf_options);
+  if (automatic) rbf_options.smoothing = automatic_smoothing(data->points, rbf_options.basis.kernel);
 
   OutlierReport report;
   report.smoothing = rbf_options.smoothing;

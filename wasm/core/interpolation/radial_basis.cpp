@@ -112,6 +112,15 @@ Result<Done> RadialBasis::set_widths(const RadialBasisOptions& options) {
   inverse_squares_ = Vector::Ones(k);
   amplitude_of_scale_ = 1;
   for (int e = kernel_.homogeneity(); e > 0; --e) amplitude_of_scale_ *= scale_;
+  if (kernel_.kind == KernelKind::tension) {
+    auto inner = kernel_.tension.scaled(scale_);
+    if (inner) {
+      amplitude_of_scale_ = 1 / std::max(std::abs(inner->value(0)), std::abs(inner->value(0.5)));
+      inner = kernel_.tension.scaled(scale_, amplitude_of_scale_);
+    }
+    if (!inner) return inner.error();
+    kernel_.tension = *inner;
+  }
   if (!kernel_.has_width()) return Done{};
   if (!(widths_.minCoeff() >= 1e-30 && widths_.maxCoeff() <= 1e30))
     return option_error({"A width is out of all proportion to the extent of the points."}, {"Give widths in units of the points."});

@@ -52,7 +52,8 @@ class RadialBasis {
   /** Inner lengths are this times the caller's. */
   double scale() const { return scale_; }
 
-  /** s^e: a kernel in inner coordinates is this times the kernel in the caller's, s the scale and e the homogeneity. */
+  /** A kernel in inner coordinates is this times the kernel in the caller's: s^e, s the scale and e the homogeneity, and for
+   * tension what makes values of about 1. */
   double amplitude_of_scale() const { return amplitude_of_scale_; }
 
   /** Points (n×d) in inner coordinates, where the polynomials are monomials. */

@@ -1,6 +1,9 @@
 #include "core/kernels/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/numerics/elementary.hpp"
 
 namespace handlebody {
 namespace {
@@ -10,6 +13,19 @@ constexpr int all_dimensions = 1000;
 template <typename Function>
 void each(double* squared, Index count, Function function) {
   for (Index i = 0; i < count; ++i) squared[i] = function(squared[i]);
+}
+
+/** function(q, ln q), a chunk at a time; ln 0 is some finite number. */
+template <typename Function>
+void each_with_logarithm(double* squared, Index count, Function function) {
+  constexpr Index chunk = 64;
+  double logs[chunk];
+  for (Index first = 0; first < count; first += chunk, squared += chunk) {
+    const Index width = std::min(chunk, count - first);
+    std::copy(squared, squared + width, logs);
+    logarithms(logs, width);
+    for (Index i = 0; i < width; ++i) squared[i] = function(squared[i], logs[i]);
+  }
 }
 
 /** x^n for small n ≥ 0: std::pow is large, and slower. */
@@ -71,15 +87,15 @@ void Kernel::values(double* squared, Index count) const {
       return each(squared, count, [](double q) { return q * std::sqrt(q); });
     case KernelKind::quintic:
       return each(squared, count, [](double q) { return q * q * std::sqrt(q); });
-    case KernelKind::thin_plate:  // 0·ln 0 would be NaN; the limit is 0
-      return each(squared, count, [](double q) { return q > 0 ? 0.5 * q * std::log(q) : 0; });
+    case KernelKind::thin_plate:
+      return each_with_logarithm(squared, count, [](double q, double log) { return 0.5 * q * log; });
     case KernelKind::polyharmonic:
       return each(squared, count, [e = exponent](double q) {
         if (e % 2) return power_of_root(q, e);
         return q > 0 ? 0.5 * std::log(q) * power(q, e / 2) : 0;
       });
     case KernelKind::gaussian:
-      return each(squared, count, [](double q) { return std::exp(-q); });
+      return decaying_exponentials(squared, count);
     case KernelKind::multiquadric:
       return each(squared, count, [](double q) { return std::sqrt(1 + q); });
     case KernelKind::inverse_multiquadric:
@@ -106,6 +122,7 @@ void Kernel::values(double* squared, Index count) const {
     case KernelKind::custom:
       return each(squared, count, [this](double q) { return custom.function(custom.context, std::sqrt(q), false); });
     case KernelKind::tension:
+      return each(squared, count, [this](double q) { return tension.value(std::sqrt(q)); });
     case KernelKind::clamped_plate:  // needs more than a distance
       return;
   }
@@ -152,13 +169,17 @@ void Kernel::slopes(double* squared, Index count) const {
         return s > 0 ? custom.function(custom.context, s, true) / s : 0;
       });
     case KernelKind::tension:
+      return each(squared, count, [this](double q) {
+        const double r = std::sqrt(q);
+        return r > 0 ? tension.slope(r) / r : 0;
+      });
     case KernelKind::clamped_plate:
       return;
   }
 }
 
 bool Kernel::has_width() const {
-  return homogeneity() == 0;
+  return homogeneity() == 0 && kind != KernelKind::tension;
 }
 
 int Kernel::homogeneity() const {
@@ -185,6 +206,8 @@ int Kernel::minimum_degree() const {
       return 0;
     case KernelKind::custom:
       return custom.minimum_degree;
+    case KernelKind::tension:
+      return tension.minimum_degree();
     default: {
       const int e = homogeneity();
       return e == 0 ? -1 : e / 2;
@@ -213,7 +236,7 @@ int Kernel::definite_to_dimension() const {
 }
 
 bool Kernel::vanishes_at_center() const {
-  return homogeneity() != 0;
+  return homogeneity() != 0 || (kind == KernelKind::tension && tension.minimum_degree() >= 0);
 }
 
 }  // namespace handlebody

@@ -5,6 +5,7 @@
 // Methods with MATLAB (2007), appendix D; Buhmann, Math. Comp. 70 (2001).
 #pragma once
 
+#include "core/kernels/tension_kernel.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -46,6 +47,7 @@ struct Kernel {
   int exponent = 3;    // e of polyharmonic, ℓ of Wendland
   double support = 4;  // S of the compact inverse multiquadric
   CustomKernel custom = {};
+  TensionKernel tension = {};
 
   /** The kernel of that kind in `dimension` dimensions: sets the exponent. `order` is that of polyharmonic's Laplacian (2
    * biharmonic, 3 triharmonic …), with 2·order > dimension. */
