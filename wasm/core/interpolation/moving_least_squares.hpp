@@ -40,7 +40,7 @@ struct MovingLeastSquaresOptions {
   double power = 4;    // p > 0, of inverse distances
   double epsilon = 0;  // ε ≥ 0, likewise, in units of the points
   double width = 0;    // h > 0 of the others, in units of the points; 0: 2 + degree mean distances to the nearest neighbor, twice
-                     // that for wendland, where h is the end and not the middle of the weight
+                       // that for wendland, where h is the end and not the middle of the weight
 };
 
 class MovingLeastSquares final : public Interpolant {
@@ -61,7 +61,7 @@ class MovingLeastSquares final : public Interpolant {
 
   void find_distances(const double* query);
   void widen();
-  double root_weight(double r) const;
+  void set_roots();
   double steepness(double r) const;
   void set_monomials(Index point);
   bool set_direction(const double* query, Index point);
@@ -79,7 +79,7 @@ class MovingLeastSquares final : public Interpolant {
   double reach_ = 1;                  // h here
   Index farthest_ = -1;               // the point that h follows, where it widens
   Numbers rows_;                      // the point of each row
-  Vector roots_;                      // √w of each row
+  Vector roots_;                      // √w of each point, then of each row
   Vector offset_, right_, solution_;  // scratch: d, q, n
   Vector difference_, monomials_;     // of set_monomials()
   Vector direction_;                  // of set_direction()
