@@ -32,7 +32,8 @@ export class WarningList {
     this.#apply = apply;
   }
 
-  show(problem: unknown, warnings: readonly RbfWarning[]): void {
+  /** `kept`: whether there is a last good picture. */
+  show(problem: unknown, kept: boolean, warnings: readonly RbfWarning[]): void {
     const told = new Set<string>();
     const tell = (code: string, message: string, remedy: string, remedies: Remedy[]) => {
       told.add(code);
@@ -46,7 +47,7 @@ export class WarningList {
     };
     if (problem !== undefined) {
       const { message, remedy } = explain(problem);
-      tell('error', message, `${remedy} The picture is the last good one.`, []);
+      tell('error', message, kept ? `${remedy} The picture is the last good one.` : remedy, []);
     } else {
       for (const warning of warnings) {
         const remedies = remediesOf(warning).filter(({ settings }) => Object.keys(settings).every((id) => this.#known.has(id)));
