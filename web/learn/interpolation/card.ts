@@ -125,7 +125,7 @@ export class Card {
         width + (verdict.misfit <= tolerance ? 'passes through all points' : `misses points by up to ${brief(verdict.misfit)}`),
       );
     }
-    this.#warnings.show(problem, this.fit.interpolant !== undefined, report?.warnings ?? []);
+    this.#warnings.show(problem, report?.warnings ?? []);
     if (!this.#body.hidden) this.#fill();
   }
 

@@ -154,8 +154,8 @@ export class Chart {
       const [end, place] = [ends[i] as number, places[i] as number];
       leader.setAttribute('d', `M2 ${end.toFixed(1)}L14 ${place.toFixed(1)}`);
       text.setAttribute('y', (place + 4 - (curve.label.detail ? LINE / 2 : 0)).toFixed(1));
-      write(name, curve.label.name, 23);
-      write(detail, curve.label.detail, 28);
+      if (name.textContent !== curve.label.name) name.textContent = curve.label.name;
+      if (detail.textContent !== curve.label.detail) detail.textContent = curve.label.detail;
     });
   }
 
@@ -205,12 +205,6 @@ export function match<K extends keyof SVGElementTagNameMap>(
 ): void {
   while (group.childElementCount > count) group.lastElementChild?.remove();
   while (group.childElementCount < count) group.append(make());
-}
-
-/** A text, shortened to what has room beside a curve. */
-function write(element: Element, text: string, most: number): void {
-  const short = text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
-  if (element.textContent !== short) element.textContent = short;
 }
 
 function mark(element: SVGElement, { key, slot, stale, sum }: Curve): void {

@@ -22,9 +22,6 @@ export class FieldGrid {
   }
 }
 
-/** Queries whose weights are asked for at a time: each has as many as there are points, of which one is kept. */
-const BATCH = 2048;
-
 /** A fit's values at queries, or the chosen point's weight there. */
 export class FieldValues {
   values: Float64Array = new Float64Array();
@@ -38,13 +35,9 @@ export class FieldValues {
       return this.values;
     }
     const n = values.length;
-    this.#all = asLong(this.#all, BATCH * n);
-    for (let first = 0; first < count; first += BATCH) {
-      const batch = Math.min(BATCH, count - first);
-      const all = this.#all.subarray(0, batch * n);
-      fit.interpolant?.weights(queries.subarray(2 * first, 2 * (first + batch)), all);
-      for (let i = 0; i < batch; i++) this.values[first + i] = all[i * n + cardinalOf] as number;
-    }
+    this.#all = asLong(this.#all, count * n);
+    fit.interpolant?.weights(queries, this.#all);
+    for (let i = 0; i < count; i++) this.values[i] = this.#all[i * n + cardinalOf] as number;
     return this.values;
   }
 }

@@ -180,7 +180,7 @@ export const PRESETS: readonly Preset[] = [
     mark: 'Fig. 19',
     title: 'Too broad, and cured',
     look: 'Kernels much broader than the spacing make rows of the matrix nearly alike. Then small bumps of the data swing far between the points and out of the picture beside them. A smoothing of 1e−5 tames the curve, which misses its points by less than a tenth.',
-    attempt: 'Compare the condition numbers, and the weights: huge numbers that cancel. Then drag one point a little.',
+    attempt: 'Compare the condition numbers, and the weights: hundreds of thousands that cancel. Then drag one point a little.',
     make: () => made('fig-19', 1, BELL, [gaussian(5), gaussian(5, { smoothing: 1e-5 })]),
   },
   {

@@ -9,12 +9,11 @@ import { brief, conditionText, health } from './words.ts';
 export function summary(experiment: Experiment, fits: readonly Fit[], found: string): string {
   const shown = fits.filter(({ model }) => model.shown);
   const count = `${shown.length} ${shown.length === 1 ? 'interpolant' : 'interpolants'} of ${experiment.values.length} points`;
-  const notes = shown.flatMap(({ label, problem, verdict, interpolant }) => {
+  const notes = shown.flatMap(({ label, problem, verdict }) => {
     const name = [label.name, label.detail].filter(Boolean).join(', ');
-    if (problem instanceof Error)
-      return [`${name}: ${interpolant ? 'keeps its last picture' : 'no picture'}, ${problem.message.replace(/\.$/, '')}`];
+    if (problem instanceof Error) return [`${name} keeps its last picture: ${problem.message}`];
     const condition = verdict?.report?.condition;
-    return condition === undefined ? [] : [`${name}: condition ${conditionText(condition)}, ${health(condition)}`];
+    return condition === undefined ? [] : [`condition of ${name} ${conditionText(condition)}: ${health(condition)}`];
   });
   return `${[count, ...notes].join('; ')}.${found ? ` ${found}` : ''}`;
 }

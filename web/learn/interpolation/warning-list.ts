@@ -32,8 +32,7 @@ export class WarningList {
     this.#apply = apply;
   }
 
-  /** `kept`: whether there is a last good picture. */
-  show(problem: unknown, kept: boolean, warnings: readonly RbfWarning[]): void {
+  show(problem: unknown, warnings: readonly RbfWarning[]): void {
     const told = new Set<string>();
     const tell = (code: string, message: string, remedy: string, remedies: Remedy[]) => {
       told.add(code);
@@ -47,7 +46,7 @@ export class WarningList {
     };
     if (problem !== undefined) {
       const { message, remedy } = explain(problem);
-      tell('error', message, kept ? `${remedy} The picture is the last good one.` : remedy, []);
+      tell('error', message, `${remedy} The picture is the last good one.`, []);
     } else {
       for (const warning of warnings) {
         const remedies = remediesOf(warning).filter(({ settings }) => Object.keys(settings).every((id) => this.#known.has(id)));
