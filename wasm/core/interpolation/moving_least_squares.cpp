@@ -8,6 +8,7 @@
 
 #include "core/interpolation/polynomial.hpp"
 #include "core/numerics/dense.hpp"
+#include "core/numerics/elementary.hpp"
 
 namespace handlebody {
 namespace {
@@ -114,17 +115,17 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
   reach_ = in_range(width_ / unit_);
   farthest_ = -1;
   if (options_.weight == MovingWeight::wendland) widen();
+  set_roots();
   Index rows = 0;
   for (Index k = 0; k < n; ++k) {
-    const double root = root_weight(distances_[k]);
-    if (!(root > least_root)) continue;
-    roots_[rows] = root;
+    if (!(roots_[k] > least_root)) continue;
+    roots_[rows] = roots_[k];
     rows_[static_cast<std::size_t>(rows++)] = static_cast<std::uint32_t>(k);
   }
   qr_.reset(rows);
   for (Index row = 0; row < rows; ++row) {
     set_monomials(rows_[static_cast<std::size_t>(row)]);
-    qr_.scale(row) = roots_[row];
+    qr_.set_scale(row, roots_[row]);
     for (Index j = 0; j < monomials_.size(); ++j) qr_(row, j) = roots_[row] * monomials_[j];
   }
   int degree = -1;
@@ -212,16 +213,26 @@ void MovingLeastSquares::widen() {
   reach_ = distances_[farthest_] / margin;
 }
 
-/** √w, of the largest or second largest: singular weights are relative to the second nearest point. */
-double MovingLeastSquares::root_weight(double r) const {
-  if (options_.weight == MovingWeight::inverse_distance)
-    return std::exp(std::min(options_.power / 2 * std::log((second_ + epsilon_) / (r + epsilon_)), largest_exponent));
-  if (options_.weight == MovingWeight::gaussian) {
-    const double nearest = distances_[own_];
-    return std::exp(-(r - nearest) / reach_ * ((r + nearest) / reach_) / 2);
+/** √w of every point, relative to the nearest; singular ones to the second nearest. */
+void MovingLeastSquares::set_roots() {
+  const Index n = distances_.size();
+  const double nearest = distances_[own_], one_over_reach = 1 / reach_;
+  if (options_.weight == MovingWeight::inverse_distance) {
+    const double second = second_ + epsilon_;
+    for (Index k = 0; k < n; ++k) roots_[k] = distances_[k] + epsilon_;
+    roots_[own_] = second;
+    inverse_powers(roots_.data(), n, second, options_.power / 2);
+    roots_[own_] = std::exp(std::min(options_.power / 2 * std::log(second / (nearest + epsilon_)), largest_exponent));
+  } else if (options_.weight == MovingWeight::gaussian) {
+    for (Index k = 0; k < n; ++k)
+      roots_[k] = (distances_[k] - nearest) * one_over_reach * ((distances_[k] + nearest) * one_over_reach) / 2;
+    decaying_exponentials(roots_.data(), n);
+  } else {
+    for (Index k = 0; k < n; ++k) {
+      const double s = distances_[k] * one_over_reach;
+      roots_[k] = s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
+    }
   }
-  const double s = r / reach_;
-  return s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
 }
 
 /** d ln w / dr */
@@ -234,8 +245,8 @@ double MovingLeastSquares::steepness(double r) const {
 
 /** p(xₖ), with the origin at the nearest point. */
 void MovingLeastSquares::set_monomials(Index point) {
-  for (Index axis = 0; axis < dimension(); ++axis)
-    difference_[axis] = (data_.points(point, axis) - data_.points(own_, axis)) / unit_;
+  const double *x = &data_.points(point, 0), *origin = &data_.points(own_, 0), one_over_unit = 1 / unit_;
+  for (Index axis = 0; axis < dimension(); ++axis) difference_[axis] = (x[axis] - origin[axis]) * one_over_unit;
   polynomial_values(difference_.data(), dimension(), options_.degree, monomials_.data());
 }
 

@@ -60,7 +60,7 @@ class MovingLeastSquares final : public Interpolant {
 
   void find_distances(const double* query);
   void widen();
-  double root_weight(double r) const;
+  void set_roots();
   double steepness(double r) const;
   void set_monomials(Index point);
   bool set_direction(const double* query, Index point);
@@ -78,7 +78,7 @@ class MovingLeastSquares final : public Interpolant {
   double reach_ = 1;                  // h here
   Index farthest_ = -1;               // the point that h follows, where it widens
   Numbers rows_;                      // the point of each row
-  Vector roots_;                      // √w of each row
+  Vector roots_;                      // √w of each point, then of each row
   Vector offset_, right_, solution_;  // scratch: d, q, n
   Vector difference_, monomials_;     // of set_monomials()
   Vector direction_;                  // of set_direction()

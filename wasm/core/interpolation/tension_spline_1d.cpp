@@ -38,9 +38,9 @@ Curvature curvature(double omega) {
 /** σ or σ′. */
 double even_part(double omega, double t, double rest_of_t, bool derivative) {
   if (omega < slack) return derivative ? rest_of_t - t : t * rest_of_t;
-  const double u = omega * t, v = omega * rest_of_t, whole = std::expm1(-omega);
-  if (!derivative) return -std::expm1(-u) * std::expm1(-v) / (omega * whole);
-  return u < v ? std::exp(-u) * std::expm1(u - v) / whole : -std::exp(-v) * std::expm1(v - u) / whole;
+  const double u = omega * t, v = omega * rest_of_t, whole = exp_less_one(-omega);
+  if (!derivative) return -exp_less_one(-u) * exp_less_one(-v) / (omega * whole);
+  return u < v ? std::exp(-u) * exp_less_one(u - v) / whole : -std::exp(-v) * exp_less_one(v - u) / whole;
 }
 
 /** a or a′. */

@@ -71,9 +71,7 @@ Result<TensionKernel> TensionKernel::create(double alpha, double beta, double ga
     kernel.factor_ = 1 / (4 * alpha * m);
     if (gamma > 0) {  // ln(b/a)/(2mh): artanh and arctan are the same function of h²
       const double imaginary = kernel.h2_ < 0 ? std::sqrt(-kernel.h2_) : 0, part = 2 * kernel.h_ / kernel.a_;
-      kernel.log_ratio_ = imaginary > 0 ? std::atan2(imaginary, m) / (imaginary * m)
-                          : part > 0    ? std::log1p(part) / part / (kernel.a_ * m)
-                                        : 1 / (m * m);
+      kernel.log_ratio_ = imaginary > 0 ? std::atan2(imaginary, m) / (imaginary * m) : log_one_plus_over(part) / (kernel.a_ * m);
     }
     // Everything that is divided by; the value at r = 0 is the largest, where there is no tail.
     const double scale = kernel.factor_ / (m * m);
@@ -103,7 +101,7 @@ double TensionKernel::value(double r) const {
     if (gamma_ > 0) return factor_ / h_ * (green(dimension_, a_, r) - green(dimension_, b_, r));
     const double br = b_ * r;
     if (dimension_ == 2) return -factor_ / (2 * pi * m_) * (std::log(br / 2) + euler_gamma + bessel_k0(br));
-    return -factor_ * (br + std::expm1(-br)) / (dimension_ == 1 ? 4 * m_ * m_ : 4 * pi * m_ * r);
+    return -factor_ * (br + exp_less_one(-br)) / (dimension_ == 1 ? 4 * m_ * m_ : 4 * pi * m_ * r);
   }
   const double mr = m_ * r;
   if (mr > underflow) return 0;
