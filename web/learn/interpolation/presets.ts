@@ -210,7 +210,7 @@ export const PRESETS: readonly Preset[] = [
   },
   {
     id: 'fig-21b',
-    mark: 'Fig. 21, again',
+    mark: 'Fig. 21 (2)',
     title: 'An outlier in a ramp',
     look: 'One value was saved at a wrong place. Here the simpler idea finds it: smooth the curve, then take the point that is farthest from it.',
     attempt: 'Make a second bad point: they are found one after another, each time without those found before.',
