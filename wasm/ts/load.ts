@@ -3,6 +3,7 @@ import { bake } from './bake.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { Irbf } from './irbf.ts';
+import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
@@ -47,6 +48,11 @@ export class Handlebody {
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
     return new Shepard(this.#heap, options);
+  }
+
+  /** Sibson's natural neighbor interpolation of scattered data in the plane. */
+  naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
+    return new NaturalNeighbor(this.#heap, options);
   }
 }
 

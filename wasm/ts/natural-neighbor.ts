@@ -30,8 +30,9 @@ export class NaturalNeighbor extends Interpolant {
     const rule = OUTSIDE.indexOf(outside);
     if (rule < 0) {
       throw new HandlebodyError('invalid-option', {
-        message: `There is no way '${outside}' to answer outside the hull.`,
-        remedy: "Use 'nearest' or 'nan'.",
+        message: `There is no way called "${outside}" to answer outside the hull.`,
+        remedy: `Use one of: ${OUTSIDE.join(', ')}.`,
+        culprit: { kind: 'option', index: -1 },
       });
     }
     super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>

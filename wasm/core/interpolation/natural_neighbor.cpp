@@ -8,8 +8,8 @@
 namespace handlebody {
 namespace {
 
-constexpr double at_point = 1e-300;  // squared distances that lose digits
-constexpr double no_slope = 1e-24;   // squared distance of a point that leaves its surroundings no gradient
+constexpr double at_point = 1e-300;  // squares of distances: that of none, above where they lose digits,
+constexpr double no_slope = 1e-24;   // and that up to which a point leaves no gradient
 
 }  // namespace
 
@@ -44,7 +44,7 @@ NaturalNeighbor::NaturalNeighbor(ScatteredData data, Outside outside)
     const double largest = std::max(std::abs(low_[axis]), std::abs(high_[axis]));
     rounding = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() * (largest * per_diagonal_));
   }
-  // Points s apart on a straight boundary seem to be off it by their rounding ρ, which bends it for cells wider than s²/ρ.
+  // Points on a straight boundary are off it by their rounding ρ. Where they are s apart, cells wider than s²/ρ would notice.
   blur_ = 2 * NearestInHull::tolerance + rounding;
   far_ = std::clamp(1e-3 / rounding, 1e3, 1e10);
 }
@@ -65,16 +65,15 @@ void NaturalNeighbor::weigh(const double* query, double* w, double* slopes) {
       if (slopes) std::fill(slopes, slopes + 2 * n, none);
       return;
     }
-    i = std::max_element(w, w + n) - w;
+    // A corner of the hull or the two ends of an edge carry the foot. If x is a little inside, a third has no weight to speak of.
+    own_ = i = std::max_element(w, w + n) - w;
     corner = w[i] == 1;
     w[i] = 0;
     j = std::max_element(w, w + n) - w;
-    if (corner) {
+    if (corner)
       place = Place::at_point;
-      own_ = i;
-    } else {
+    else
       measure(foot);
-    }
   }
 
   std::fill(w, w + n, 0.0);
@@ -99,7 +98,7 @@ void NaturalNeighbor::measure(const double* x) {
   }
 }
 
-/** Makes x's cell. It is open where it reaches the box. */
+/** Makes x's cell. It is open if it reaches the box. */
 NaturalNeighbor::Place NaturalNeighbor::surround(const double* x) {
   measure(x);
   const Index n = squares_.size();
@@ -135,11 +134,11 @@ void NaturalNeighbor::take_areas(double* w, double* slopes) {
       const Index j = cell_.side((k + (step % 2 ? (step + 1) / 2 : m - step / 2)) % m).owner;
       // |y − pᵢ| ≤ |y − pⱼ|, or e·y ≤ e·(pᵢ + pⱼ)/2 with e = pⱼ − pᵢ.
       const double ex = (point(j)[0] - point(i)[0]) * per_diagonal_, ey = (point(j)[1] - point(i)[1]) * per_diagonal_;
-      const double length = std::sqrt(ex * ex + ey * ey), middle_x = (offsets_(i, 0) + offsets_(j, 0)) / 2,
-                   middle_y = (offsets_(i, 1) + offsets_(j, 1)) / 2;
+      const double twice = ex * (offsets_(i, 0) + offsets_(j, 0)) + ey * (offsets_(i, 1) + offsets_(j, 1));
+      const double length = std::sqrt(ex * ex + ey * ey);
       // Adjacent neighbors share a vertex of the cell, equally far from both. Near the hull's boundary it is so far away that the
       // angle between its line and theirs is nothing but rounding, and they would share the cell's area as that has it.
-      part_.cut(ex / length, ey / length, (ex * middle_x + ey * middle_y) / length, j, i);
+      part_.cut(ex / length, ey / length, twice / 2 / length, j, i);
     }
     area += w[i] = part_.area();
     if (!slopes) continue;

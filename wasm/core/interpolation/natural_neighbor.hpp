@@ -16,14 +16,16 @@
 // between x and pᵢ, ∇Aᵢ = ℓᵢ (mᵢ − x) / |pᵢ − x|, and the quotient rule does the rest. There is none at a point: NaN, closer than
 // 1e-12 of the diagonal of the points' bounding box.
 //
-// **At the hull's boundary** the cell grows without bound and the weights become linear between the two points at the ends of the
-// boundary's edge. **Outside** there are no cells: either the value at the nearest point of the hull, which is the continuous
-// extension (constant along the hull's normals, and so is the gradient), or NaN. Inside means up to 1e-12 of the diagonal, as
-// NearestInHull has it. Up to about 1e-13 diagonals from the boundary, the weights are those on it and the gradient is the part
-// along it. **Points on a line** are all boundary: linear between neighbors, constant across and beyond; one point is constant.
+// **At the hull's boundary** the cell grows without bound and the weights become linear between the two points on both sides of x.
+// **Outside** there are no cells: either the value at the nearest point of the hull, which is the continuous extension (constant
+// along the hull's normals; the gradient is the part along the boundary), or NaN. Inside means up to 1e-12 of the diagonal, as
+// NearestInHull has it. What is inside by less than 1e-11 diagonals, or 2e-13 of the largest coordinate, counts as on the boundary.
+// **Points on a line**, up to as much, are all boundary: linear between neighbors, constant across and beyond. One point is
+// constant.
 //
-// **Accuracy.** Weights are right to about 1e-14, wherever x is. Gradients lose digits close to a point or to the hull's boundary:
-// to about 1e-15 over that distance, both in diagonals.
+// **Accuracy.** Weights are those of points moved by 1e-15 diagonals: right to 1e-14, close to points and to the boundary too, but
+// to 1e-15/t only where points crowd within t diagonals or form a needle t thick. Gradients are right to 1e-15 over the distance to
+// the nearest point or to the boundary, in diagonals.
 #pragma once
 
 #include "core/interpolation/convex_cell.hpp"
