@@ -39,10 +39,11 @@ export const LAYERS = {
   'web/models': { may: ['wasm/ts'], packages: [], never: ['three', GLTF] },
   'web/three': { may: ['wasm/ts', 'web/assets'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
-  'web/element': { may: BASE, packages: ['three', GLTF] },
+  'web/ui': { may: [], packages: [] },
+  'web/element': { may: [...BASE, 'web/ui'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
-  'web/studio': { may: [...BASE, 'web/element'], packages: ['three', GLTF] },
-  'web/learn': { may: [...BASE, 'web/element'], packages: ['three', GLTF] },
+  'web/studio': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', GLTF] },
+  'web/learn': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
 };
 
 /** Headers that would tie the core to one platform. */

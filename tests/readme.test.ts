@@ -23,7 +23,7 @@ beforeAll(() => {
 });
 
 describe("the README's examples", () => {
-  it('are there', () => expect(examples).toHaveLength(2));
+  it('are there', () => expect(examples).toHaveLength(3));
 
   it('are about ten lines', () => {
     for (const { code } of examples)
@@ -78,6 +78,18 @@ describe("the README's examples", () => {
         expect(x).toBeCloseTo(face.shape[i], 6);
       });
     }
+  });
+
+  it('pass through their points, gently or not', async () => {
+    const { data, surface, heights, slope, report, gentle } = await import(/* @vite-ignore */ examples[2]?.file ?? '');
+    expect(heights[0]).toBeCloseTo(2, 6);
+    data.values.forEach((value: number, i: number) => {
+      expect(surface.evaluate(data.points.slice(2 * i, 2 * i + 2))[0]).toBeCloseTo(value, 6);
+    });
+    expect(slope).toHaveLength(2);
+    expect(report.condition).toBeGreaterThan(1);
+    expect(gentle[0]).toBeGreaterThan(0);
+    expect(gentle[0]).toBeLessThan(2);
   });
 });
 

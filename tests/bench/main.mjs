@@ -1,118 +1,16 @@
-/**
- * `npm run bench`: the dog in our wasm and in our core compiled natively (SSE2, and this machine's own instructions), taken in turns
- * in one run, as ratios. Results go to tests/bench/results.json. Absolute times are those of a noisy machine: compare ratios only.
- */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { cpus, tmpdir } from 'node:os';
-import path from 'node:path';
-import { at } from '../../scripts/lib/paths.mjs';
-import { capture, mustRun, runMain } from '../../scripts/lib/run.mjs';
-import { ensureNative } from '../../scripts/toolchain.mjs';
-import { bodyFile } from './body-file.mjs';
-import { firstFrame } from './first-frame.mjs';
-import { SETUP } from './setup.mjs';
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or irbf) runs that part only.
+import { ensureInstalled } from '../../scripts/lib/install.mjs';
+import { runMain } from '../../scripts/lib/run.mjs';
 
-const ROUNDS = 5;
-
-/** @typedef {Record<string, number>} Times */
-
-/** @param {string} name @param {string[]} options @returns {Promise<string>} The benchmark's program. */
-async function buildNative(name, options) {
-  const folder = at('build', `bench-${name}`);
-  await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], {
-    stdio: ['ignore', 'ignore', 'inherit'],
-  });
-  await mustRun('cmake', ['--build', folder, '--parallel', '--target', 'handlebody_bench'], {
-    stdio: ['ignore', 'ignore', 'inherit'],
-  });
-  return path.join(folder, 'handlebody_bench');
-}
-
-/** @param {string} program @param {string[]} args @returns {Times} */
-function measure(program, args) {
-  const { status, stdout, stderr } = capture(program, args);
-  if (status !== 0) throw new Error(`${path.basename(program)} failed: ${stderr}`);
-  return JSON.parse(stdout);
-}
-
-/** @param {number[]} values */
-const median = (values) => values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)] ?? Number.NaN;
+const PARTS = {
+  interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
+  irbf: async () => (await import('./irbf.mjs')).benchIrbf(),
+};
 
 await runMain(async () => {
-  await mustRun(process.execPath, [at('scripts', 'build.mjs')]);
-  const { readBody, readGlb } = await import('../../dist/web/assets/index.js');
-  const body = readBody(await readGlb(readFileSync(SETUP.model)));
-  if (!body) throw new Error('The model carries no body.');
-  const folder = mkdtempSync(path.join(tmpdir(), 'handlebody-bench-'));
-  try {
-    const file = path.join(folder, 'dog.bin');
-    const [x, y, z] = SETUP.shift.map((part) => part * body.normalization.diagonal);
-    writeFileSync(file, bodyFile(body, SETUP.handles, [x ?? 0, y ?? 0, z ?? 0]));
-
-    /** @type {Record<string, () => Times>} */
-    const sides = { wasm: () => measure(process.execPath, [at('tests', 'bench', 'wasm-side.mjs')]) };
-    const missing = await ensureNative();
-    if (missing) {
-      console.log(`native side: NOT RUN (${missing})`);
-    } else {
-      const sse2 = await buildNative('sse2', []);
-      const own = await buildNative('own', ['-DHANDLEBODY_NATIVE_ARCH=ON']);
-      sides.sse2 = () => measure(sse2, [file]);
-      sides.own = () => measure(own, [file]);
-    }
-    /** @type {Record<string, Times[]>} */
-    const taken = {};
-    for (let round = 0; round < ROUNDS; round++) {
-      for (const [side, run] of Object.entries(sides)) taken[side] = [...(taken[side] ?? []), run()];
-    }
-    const rows = ['prepare', 'factor', 'solve', 'deform', 'deformNormals'];
-    /** @param {string} side @param {string} row */
-    const time = (side, row) => median((taken[side] ?? []).map((times) => times[row] ?? Number.NaN));
-    /** @param {string} side @param {string} row */
-    const ratio = (side, row) =>
-      median((taken.wasm ?? []).map((times, i) => (times[row] ?? Number.NaN) / (taken[side]?.[i]?.[row] ?? Number.NaN)));
-
-    const counts = `${body.mesh.positions.length / 3} vertices, ${body.centers.length} centers, ${body.spheres.length / 4} spheres, ${SETUP.handles.length} handles`;
-    console.log(`\nDog: ${counts}. Medians of ${ROUNDS} rounds, taken in turns; ${cpus()[0]?.model ?? 'unknown processor'}.\n`);
-    console.log(
-      ['', 'wasm ms', 'SSE2 ms', 'own ms', 'wasm/SSE2', 'wasm/own'].map((c, i) => (i ? c.padStart(10) : c.padEnd(22))).join(''),
-    );
-    const labels = {
-      prepare: 'prepare the body',
-      factor: 'factor (set handles)',
-      solve: 'solve, 30 iterations',
-      deform: 'deform',
-      deformNormals: 'deform with normals',
-    };
-    /** @type {Record<string, unknown>} */
-    const results = {};
-    for (const row of rows) {
-      const cells = [time('wasm', row), time('sse2', row), time('own', row), ratio('sse2', row), ratio('own', row)];
-      results[row] = {
-        wasmOverSse2: Number(cells[3]?.toFixed(2)),
-        wasmOverOwn: Number(cells[4]?.toFixed(2)),
-        wasmMilliseconds: Number(cells[0]?.toFixed(3)),
-      };
-      console.log(
-        [labels[/** @type {keyof typeof labels} */ (row)].padEnd(22), ...cells.map((c) => c.toFixed(2).padStart(10))].join(''),
-      );
-    }
-    const load = time('wasm', 'load');
-    const frame = await firstFrame();
-    console.log(
-      `\nload() in Node: ${load.toFixed(0)} ms. Studio in headless Chromium (software rendering), from navigation: ${frame}`,
-    );
-    const record = {
-      what: `dog: ${counts}`,
-      rounds: ROUNDS,
-      processor: cpus()[0]?.model,
-      node: process.version,
-      results,
-      loadMilliseconds: Math.round(load),
-      firstFrame: frame,
-    };
-    writeFileSync(at('tests', 'bench', 'results.json'), `${JSON.stringify(record, null, 2)}\n`);
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
-  }
+  const named = process.argv.slice(2);
+  const unknown = named.find((name) => !Object.hasOwn(PARTS, name));
+  if (unknown) throw new Error(`There is no benchmark called "${unknown}": use ${Object.keys(PARTS).join(', ')}, or none for all.`);
+  await ensureInstalled();
+  for (const [name, run] of Object.entries(PARTS)) if (named.length === 0 || named.includes(name)) await run();
 });

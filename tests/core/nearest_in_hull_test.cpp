@@ -203,6 +203,28 @@ TEST_CASE("nearest in hull: very thin hulls and crowded points stay right (seed 
   }
 }
 
+TEST_CASE("nearest in hull: means of nearly coplanar points are inside (seed 19760101)") {
+  // The corral's plane turns by as little as the points are off a face: its normal must be right to its own last digit.
+  std::mt19937 random(seed + 8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const double jitter : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    Matrix points = jitter * random_points(random, 125, 3);
+    for (Index i = 0; i < 125; ++i) points.row(i) += Eigen::RowVector3d(double(i % 5), double(i / 5 % 5), double(i / 25)) / 4;
+    NearestInHull hull(points);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+      Vector query = Vector::Zero(3);
+      double sum = 0;
+      for (int k = 0; k < 1 + repeat % 4; ++k) {
+        const double weight = uniform(random);
+        query += weight * points.row(static_cast<Index>(random() % 125)).transpose();
+        sum += weight;
+      }
+      CAPTURE(jitter);
+      CHECK(ask(hull, 125, query / sum).distance == 0);
+    }
+  }
+}
+
 TEST_CASE("nearest in hull: projections are no farther apart than their queries, close to the hull too (seed 19760101)") {
   std::mt19937 random(seed + 6);
   for (const Index dimension : {2, 3, 6}) {

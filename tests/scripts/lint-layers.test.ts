@@ -19,6 +19,8 @@ describe('layers that are kept', () => {
         'web/assets/schema.ts': 'export const version = 0;\n',
         'web/three/plugin.ts': "import { Mesh } from 'three';\nimport { version } from '../assets/schema.ts';\n",
         'web/worker/bake.ts': "import { version } from '../assets/schema.ts';\n",
+        'web/ui/dom.ts': 'export const h = 0;\n',
+        'web/learn/a/main.ts': "import { ticks } from 'd3-array';\nimport { h } from '../../ui/dom.ts';\n",
         'web/studio/main.ts':
           "import { Mesh } from 'three';\nimport { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';\nimport './main.css';\n",
         'tests/ts/load.test.ts': "import fs from 'node:fs';\nimport { read } from '../../wasm/ts/load.ts';\n",
@@ -103,6 +105,12 @@ describe('violations that are caught', () => {
       { 'web/element/a.ts': "import '../cli/b.ts';\n", 'web/cli/b.ts': '' },
       /must not use web\/cli/,
     ],
+    [
+      'a lesson imports the studio',
+      { 'web/learn/a/main.ts': "import '../../studio/b.ts';\n", 'web/studio/b.ts': '' },
+      /web\/learn must not use web\/studio/,
+    ],
+    ['web/ui imports three', { 'web/ui/a.ts': "import 'three';\n" }, /web\/ui must not import three/],
     [
       'the studio imports a lesson',
       { 'web/studio/a.ts': "import '../learn/b.ts';\n", 'web/learn/b.ts': '' },

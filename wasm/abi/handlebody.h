@@ -163,8 +163,105 @@ HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double*
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
+/* Splines with tension in 1, 2 or 3 dimensions: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space,
+ * through the points for a smoothing of 0. `ends` 0: that; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only,
+ * with zero slope at both ends and constant beyond. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+ * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double alpha, double beta, double gamma, double smoothing, uint32_t ends, hb_interpolant** interpolant);
+
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
+
+/* Moving least squares: at every query a polynomial of `degree` 0 to 2, fitted by `weight` 0 (r + epsilon)^-power, 1 exp(-(r/width)²) or
+ * 2 (1 - r/width)⁴₊ (4r/width + 1). A `width` of 0 is chosen from the spacing; `used_width`, or NULL, tells which (0 for weight 0). Fails
+ * with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the points do not determine a polynomial of the degree,
+ * INVALID_OPTION or OUT_OF_MEMORY. */
+HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
+
+/* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
+ * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
+ * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
+HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
+/* Options of hb_rbf_create. */
+typedef struct hb_rbf_options {
+  double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
+  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers has it chosen */
+  double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
+  double support;        /* where the compact inverse multiquadric ends, in widths */
+  const double* widths;  /* one a center, or NULL */
+  const double* centers; /* center_count × dimension, or NULL for the points themselves */
+  const double* metric;  /* dimension × dimension, symmetric and positive definite, or NULL for Euclidean distances */
+  uint32_t center_count; /* of `centers`, and of `widths` */
+  uint32_t kernel;       /* 0 linear, 1 cubic, 2 thin plate, 3 Gaussian, 4 multiquadric, 5 inverse multiquadric, 6 inverse quadratic, 7 quintic,
+                            8 polyharmonic, 9 10 11 Wendland C0 C2 C4, 12 Buhmann, 13 compact inverse multiquadric, 14 clamped plate, 15 the host's */
+  uint32_t host_kernel;  /* of kernel 15: the number that the imported hb_host_kernel(number, derivative, s) is asked for */
+  int32_t degree;        /* of the polynomial tail, -1 (none) to 2 */
+  int32_t order;         /* of polyharmonic and clamped plate: 2 is biharmonic, 3 triharmonic */
+  uint32_t normalized;   /* 1 divides the kernels by their sum */
+  uint32_t width_choice; /* 0 as given, 1 from the spacing, 2 least leave-one-out error */
+  uint32_t robust;       /* with fewer centers than points: 0 least squares, 1 least absolute misfits, 2 least median of squares */
+} hb_rbf_options;
+
+/* What a fit is worth; lengths in units of the points. */
+typedef struct hb_rbf_report {
+  double condition; /* estimated 1-norm condition number of the equations */
+  double residual;  /* largest misfit at a point */
+  double spacing;   /* mean distance of a point to its nearest neighbor; 0 for a single point */
+  double least_width;
+  double largest_width;
+  double suggested_width; /* where ill conditioned: a width, and a smoothing, that are not; 0 where there is none */
+  double suggested_smoothing;
+  uint32_t center_count;
+  uint32_t near_count; /* pairs of points closer than a thousandth of the spacing, at most 8 of them listed */
+  uint32_t near_pairs[16];
+} hb_rbf_report;
+
+/* Radial basis interpolation. Fails with the codes above, INVALID_OPTION, OUT_OF_MEMORY (before anything is allocated), KERNEL_FAILED or
+ * SYSTEM_SINGULAR. */
+HB_API int32_t hb_rbf_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, hb_interpolant** interpolant);
+
+/* HB_OK where the matrices of an hb_rbf_create with such counts may be allocated (`center_count` 0 for one at each point), else
+ * OUT_OF_MEMORY: asked before the points are copied in. */
+HB_API int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_count, int32_t degree);
+
+/* These take what hb_rbf_create made, and fail with INVALID_OPTION for another method's. Coefficients: center_count × outputs, of the
+ * kernels in the caller's units. Leave-one-out: count × outputs errors, value less prediction without the point. Row weights: count,
+ * below 1 where a robust fit mistrusts a point. */
+HB_API int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* report);
+HB_API int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out);
+HB_API int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out);
+HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
+
+/* Looks for bad data by the RBF of `options`. `method` 0 row sums of the function norm, 1 what the norm loses without the point, 2 distance
+ * from the smoothed interpolant; taken out one after another while the highest score is more than `threshold` robust standard
+ * deviations above the median, `most` at the most. `scores` count; `outliers` and `heights` have room for `most`; `smoothing` the one
+ * used. Fails as hb_rbf_create does. */
+HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores, uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing);
+
+/* ---- discrete Green's functions: where kernels come from ----------------------------------------------------------------- */
+
+/* A line of `size` samples (order + 1 to 1024), differences D of an order 1 to 3 and a boundary: 0 free ends, 1 Dirichlet (0 beyond), 2
+ * Neumann (no slope), 3 periodic. See core/interpolation/discrete_green.hpp for the matrices. */
+typedef struct hb_discrete_green hb_discrete_green;
+
+/* The smoothest curve by D through `samples` (sample_count different numbers below size) with `values`. Fails with INVALID_OPTION,
+ * INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
+HB_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
+
+/* Rows of D, and the dimension of the null space of DᵀD. */
+HB_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
+
+/* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its inverse or generalized inverse. */
+HB_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
+
+/* The curve (size), by elimination on the grid. */
+HB_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
+
+/* The curve (size) by radial functions, and their weights (sample_count + nullity) unless NULL: Green's functions at the samples first. */
+HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
+
+HB_API void hb_discrete_green_free(hb_discrete_green* green);
 
 /* Natural neighbor interpolation (Sibson) of points in the plane: INVALID_SHAPE for another dimension than 2. `outside` the convex hull
  * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */

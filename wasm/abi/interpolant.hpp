@@ -2,14 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "abi/support.hpp"
 #include "core/interpolation/interpolant.hpp"
+#include "core/interpolation/rbf.hpp"
 
 struct hb_interpolant {
   std::unique_ptr<handlebody::Interpolant> method;
+  handlebody::Rbf* rbf = nullptr;  // the method, where it is one
 };
 
 namespace handlebody {
@@ -30,7 +32,10 @@ int32_t check_given(const GivenData& data, hb_interpolant** out);
 template <typename Method>
 int32_t deliver(Result<Method> made, hb_interpolant** out) {
   if (!made) return fail(made.error());
-  *out = new hb_interpolant{std::make_unique<Method>(std::move(*made))};
+  auto method = std::make_unique<Method>(std::move(*made));
+  Rbf* rbf = nullptr;
+  if constexpr (std::is_same_v<Method, Rbf>) rbf = method.get();
+  *out = new hb_interpolant{std::move(method), rbf};
   return HB_OK;
 }
 

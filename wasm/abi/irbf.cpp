@@ -45,7 +45,7 @@ extern "C" {
 
 int32_t hb_irbf_create(const hb_body* from, uint32_t kernel, double relative_width, double smoothness, double anchor_weight,
                        double edge_exponent, hb_irbf** out) {
-  if (kernel >= handlebody::kernel_count) {
+  if (kernel >= handlebody::plain_kernel_count) {
     return fail(
         {HB_ERROR_INVALID_OPTION, {"There is no kernel ", kernel, "."}, {"Use a number of the kernel list."}, HB_CULPRIT_OPTION});
   }

@@ -43,7 +43,7 @@ int32_t hb_pose_space_create(const double* places, uint32_t count, uint32_t dime
         {HB_ERROR_INVALID_SHAPE, {"A pose space of ", dimension, " dimensions is not supported."}, {"Use 1 to 64 dimensions."}});
   if (!places) return fail_null("places");
   if (method >= pose_space_method_count) return fail_option("The method is unknown.", "Use 0 (cardinal) or 1 (normalized).");
-  if (kernel >= kernel_count) return fail_option("The kernel is unknown.", "Use a number of the kernel list, 0 to 6.");
+  if (kernel >= plain_kernel_count) return fail_option("The kernel is unknown.", "Use a number of the kernel list, 0 to 7.");
 
   const PoseSpaceOptions options{static_cast<PoseSpaceMethod>(method), static_cast<KernelKind>(kernel), width, degree};
   auto created = PoseSpace::create(Eigen::Map<const Matrix>(places, count, dimension), options);

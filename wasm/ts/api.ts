@@ -1,11 +1,32 @@
 /** What both entries export besides their `load`. */
 export { BAKE_DEFAULTS } from './bake.ts';
+export {
+  DISCRETE_GREEN_DEFAULTS,
+  DiscreteGreen,
+  type DiscreteGreenOptions,
+  type GridBoundary,
+  type GridMatrix,
+} from './discrete-green.ts';
 export { type Culprit, type CulpritKind, type ErrorCode, HandlebodyError } from './errors.ts';
 export { hashPositions } from './hash.ts';
 export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
+export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
+export {
+  MOVING_LEAST_SQUARES_DEFAULTS,
+  MovingLeastSquares,
+  type MovingLeastSquaresOptions,
+  type MovingWeight,
+} from './moving-least-squares.ts';
 export { NATURAL_NEIGHBOR_DEFAULTS, NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
+export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
+export type { OutsideHull } from './outside-hull.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+export { Rbf } from './rbf.ts';
+export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
+export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
+export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export type * from './types.ts';

@@ -1,5 +1,6 @@
 import { CULPRIT_KINDS, ERROR_CODES, type Exports, LAYOUT } from './abi.generated.ts';
 import { type Culprit, HandlebodyError } from './errors.ts';
+import { HostKernels } from './host-kernels.ts';
 
 type NumberArray = ArrayLike<number> & { readonly length: number };
 
@@ -8,11 +9,15 @@ type NumberArray = ArrayLike<number> & { readonly length: number };
  * reads as empty: so views are made fresh by each method here and never kept.
  */
 export class Heap {
+  /** Callers' kernels, which the solver calls back. */
+  readonly kernels: HostKernels;
   readonly #exports: Exports;
   #trapped: unknown;
+  #running = false;
 
-  constructor(exports: Exports) {
+  constructor(exports: Exports, kernels = new HostKernels()) {
     this.#exports = exports;
+    this.kernels = kernels;
   }
 
   /** The instance's memory in bytes, now. */
@@ -53,12 +58,21 @@ export class Heap {
   /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
   call<T>(run: (exports: Exports) => T): T {
     if (this.#trapped !== undefined) throw this.#poisoned();
+    if (this.#running) {
+      throw new HandlebodyError('invalid-option', {
+        message: 'A kernel called the solver that was calling it.',
+        remedy: 'Let a kernel compute its number by itself, or use a second instance in it.',
+      });
+    }
+    this.#running = true;
     try {
       return run(this.#exports);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
       this.#trapped = error;
       throw this.#poisoned();
+    } finally {
+      this.#running = false;
     }
   }
 

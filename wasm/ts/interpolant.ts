@@ -48,7 +48,9 @@ export abstract class Interpolant {
   protected constructor(
     heap: Heap,
     data: ScatteredData,
-    create: (exports: Exports, given: CreateArguments, scratch: Scratch) => number,
+    create: (exports: Exports, given: CreateArguments, options: number) => number,
+    /** Puts further arguments into memory and returns their address. */
+    writeOptions: (scratch: Scratch) => number = () => 0,
   ) {
     const { count, outputs } = checkShapes(data);
     this.heap = heap;
@@ -60,7 +62,8 @@ export abstract class Interpolant {
       const values = scratch.putF64(data.values);
       const out = scratch.reserve(4);
       const given = { points, values, count, dimension: data.dimension, outputs, out };
-      heap.check((exports) => create(exports, given, scratch));
+      const options = writeOptions(scratch);
+      heap.check((exports) => create(exports, given, options));
       const handle = heap.u32(out, 1)[0] ?? 0;
       const twins = scratch.reserve(4 * count);
       heap.check((exports) => exports.hb_interpolant_twins(handle, twins));
@@ -138,6 +141,7 @@ export abstract class Interpolant {
       } catch (error) {
         throw countFrom(error, first);
       }
+      heap.kernels.throwFailure();
       out.set(heap.f64(to, batch * width), first * width);
     }
     return out;

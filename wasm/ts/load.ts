@@ -1,11 +1,19 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
+import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
+import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
+import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+import { Rbf } from './rbf.ts';
+import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
 const ABI_VERSION = 1;
@@ -45,14 +53,44 @@ export class Handlebody {
     return new PoseSpace(this.#heap, options);
   }
 
-  /** Shepard's inverse-distance weighting of scattered data. */
-  shepard(options: ShepardOptions): Shepard {
-    return new Shepard(this.#heap, options);
+  /** Radial basis interpolation of scattered data, or a smooth fit. */
+  rbf(options: RbfOptions): Rbf {
+    return new Rbf(this.#heap, options);
+  }
+
+  /** Points that a radial basis interpolant has to bend for. */
+  findOutliers(options: OutlierOptions): OutlierReport {
+    return findOutliers(this.#heap, options);
+  }
+
+  /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
   }
 
   /** Sibson's natural neighbor interpolation of scattered data in the plane. */
   naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
     return new NaturalNeighbor(this.#heap, options);
+  }
+
+  /** Shepard's inverse-distance weighting of scattered data. */
+  shepard(options: ShepardOptions): Shepard {
+    return new Shepard(this.#heap, options);
+  }
+
+  /** Moving least squares of scattered data: at every place a polynomial of its own. */
+  movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
+    return new MovingLeastSquares(this.#heap, options);
+  }
+
+  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
+  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
+    return new DiscreteGreen(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
   }
 }
 
@@ -66,10 +104,11 @@ export async function instantiate(source: WebAssembly.Module | BufferSource | UR
     });
   }
   let exports: Exports;
+  const kernels = new HostKernels();
   try {
     const bytes = source instanceof URL ? await fetchBytes(source, signal) : source;
     const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
-    const instance = await WebAssembly.instantiate(module, imports(module));
+    const instance = await WebAssembly.instantiate(module, imports(module, kernels));
     exports = instance.exports as unknown as Exports;
     (instance.exports._initialize as (() => void) | undefined)?.();
   } catch (cause) {
@@ -90,16 +129,17 @@ export async function instantiate(source: WebAssembly.Module | BufferSource | UR
       remedy: 'Serve the handlebody.wasm of the same release as the library.',
     });
   }
-  return new Handlebody(new Heap(exports));
+  return new Handlebody(new Heap(exports, kernels));
 }
 
-/** A standalone module asks its host for next to nothing; whatever it names is answered with "not supported" (errno 52). */
-function imports(module: WebAssembly.Module): WebAssembly.Imports {
-  const answers: Record<string, Record<string, () => number>> = {};
+/** The module asks its host for kernels; whatever else it names is answered with "not supported" (errno 52). */
+function imports(module: WebAssembly.Module, kernels: HostKernels): WebAssembly.Imports {
+  const answers: Record<string, Record<string, (...args: number[]) => number>> = {};
   for (const { module: space, name } of WebAssembly.Module.imports(module)) {
     answers[space] ??= {};
     answers[space][name] = name === 'emscripten_notify_memory_growth' ? () => 0 : () => 52;
   }
+  answers.env = { ...answers.env, hb_host_kernel: kernels.call as (...args: number[]) => number };
   return answers;
 }
 

@@ -1,14 +1,10 @@
-import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant, type ScatteredData } from './interpolant.ts';
-
-const OUTSIDE = ['nearest', 'nan'] as const;
+import { type OutsideHull, outsideNumber } from './outside-hull.ts';
 
 export interface NaturalNeighborOptions extends ScatteredData {
-  /** Natural neighbor interpolation works in the plane. */
-  readonly dimension: 2;
   /** Outside the convex hull: the value at the nearest point of the hull, or NaN. */
-  readonly outside?: (typeof OUTSIDE)[number];
+  readonly outside?: OutsideHull;
 }
 
 export const NATURAL_NEIGHBOR_DEFAULTS = { outside: 'nearest' } as const satisfies Partial<NaturalNeighborOptions>;
@@ -27,14 +23,7 @@ export class NaturalNeighbor extends Interpolant {
   /** @internal Use `Handlebody.naturalNeighbor`. */
   constructor(heap: Heap, options: NaturalNeighborOptions) {
     const { outside } = { ...NATURAL_NEIGHBOR_DEFAULTS, ...options };
-    const rule = OUTSIDE.indexOf(outside);
-    if (rule < 0) {
-      throw new HandlebodyError('invalid-option', {
-        message: `There is no way called "${outside}" to answer outside the hull.`,
-        remedy: `Use one of: ${OUTSIDE.join(', ')}.`,
-        culprit: { kind: 'option', index: -1 },
-      });
-    }
+    const rule = outsideNumber(outside);
     super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>
       e.hb_natural_neighbor_create(points, values, count, dimension, outputs, rule, out),
     );

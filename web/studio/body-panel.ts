@@ -1,5 +1,5 @@
 import { Vector3 } from 'three';
-import { h } from './dom.ts';
+import { h } from '../ui/dom.ts';
 import type { Point } from './live-body.ts';
 
 /** What the panel steers. */

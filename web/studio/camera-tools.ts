@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { h } from '../ui/dom.ts';
 import type { View } from './view.ts';
 
 const TURN = Math.PI / 8;

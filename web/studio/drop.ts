@@ -1,4 +1,4 @@
-import { byId } from './dom.ts';
+import { byId } from '../ui/dom.ts';
 
 /** Files come by the button or by being dropped anywhere on the page. */
 export function listenForFiles(take: (file: File) => void): void {

@@ -1,6 +1,6 @@
 import { load } from '../../wasm/ts/index.ts';
+import { byId } from '../ui/dom.ts';
 import { cameraTools, freeTheWheel } from './camera-tools.ts';
-import { byId } from './dom.ts';
 import { listenForFiles } from './drop.ts';
 import { Messages } from './messages.ts';
 import { ModelSwitch } from './model-switch.ts';

@@ -1,10 +1,5 @@
-import { h } from './dom.ts';
-
-interface Told {
-  readonly message: string;
-  readonly remedy: string;
-  readonly detail?: string;
-}
+import { h } from '../ui/dom.ts';
+import { explain } from '../ui/explain.ts';
 
 /** The page's one place for what went wrong: a sentence, what to do about it, and the code in small type. */
 export class Messages {
@@ -57,19 +52,6 @@ function sentences(error: unknown): HTMLElement {
   const text = h('div', {}, h('p', { class: 'sentence' }, message), h('p', { class: 'remedy' }, remedy));
   if (detail) text.append(h('p', { class: 'code' }, detail));
   return text;
-}
-
-/** Any error as a sentence and a remedy. The library's own errors bring both. */
-export function explain(error: unknown): Told {
-  if (!(error instanceof Error))
-    return { message: `Something went wrong: ${String(error)}.`, remedy: 'Reload the page and try again.' };
-  const { code, remedy, culprit } = error as Partial<{ code: string; remedy: string; culprit: { kind: string; index: number } }> &
-    Error;
-  if (typeof remedy !== 'string') {
-    return { message: `Something went wrong: ${error.message}`, remedy: 'Reload the page; if it happens again, please report it.' };
-  }
-  const where = culprit ? `, ${culprit.kind} ${culprit.index}` : '';
-  return { message: error.message, remedy, detail: `${code}${where}` };
 }
 
 /** Whether the error only says that the user cancelled. */

@@ -1,4 +1,4 @@
-import { byId, h } from './dom.ts';
+import { byId, h } from '../ui/dom.ts';
 import { MODELS } from './models.ts';
 
 /** The radio group that chooses the model; the address remembers the choice. */

@@ -1,5 +1,5 @@
+import { h, svg } from '../ui/dom.ts';
 import { declutter, type Label } from './declutter.ts';
-import { h, svg } from './dom.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 
 /** Words for the ends of the axes of Russell's plane; other spaces get minus and plus. */

@@ -1,4 +1,4 @@
-import { byId } from './dom.ts';
+import { byId } from '../ui/dom.ts';
 import type { Note } from './note.ts';
 
 /** What a new handle is asked of: a place on the view, −1 to 1. Says whether there is a surface. */

@@ -1,4 +1,4 @@
-import { h, readable } from './dom.ts';
+import { h, readable } from '../ui/dom.ts';
 import { Pad } from './pad.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 import { WeightBars } from './weight-bars.ts';

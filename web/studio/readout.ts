@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { h } from '../ui/dom.ts';
 import type { Round } from './live-body.ts';
 
 /** The small print of the solver, in the corner of the view. Silent for screen readers: it changes with every frame. */

@@ -1,7 +1,7 @@
 import type { BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
+import { byId } from '../ui/dom.ts';
 import { BodyScene } from './body-scene.ts';
-import { byId } from './dom.ts';
 import { farthestVertices } from './farthest.ts';
 import { fetchModel } from './fetch-model.ts';
 import { readHandles } from './handles-json.ts';

@@ -1,5 +1,5 @@
 import { type Camera, Vector3 } from 'three';
-import { byId } from './dom.ts';
+import { byId } from '../ui/dom.ts';
 
 /** A dotted line from where the chosen handle was at rest to where it is now. */
 export class Tether {

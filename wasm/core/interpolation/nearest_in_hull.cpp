@@ -10,7 +10,7 @@ namespace handlebody {
 namespace {
 
 constexpr double farthest = 1e150;    // diagonals: its square is a number still
-constexpr double rounding = 1e-15;    // of a place, or of a height over the plane, diagonals
+constexpr double rounding = 1e-15;    // of a length in diagonals, or of a height over the plane as a part of the distance
 constexpr Index steps_per_axis = 50;  // a few are needed
 
 double dot(const double* a, const double* b, Index d) {
@@ -45,7 +45,7 @@ NearestInHull::NearestInHull(const Matrix& points) : points_(points) {
   factor_.setZero(d + 1, d + 1);
 }
 
-/** z = Σ weights · corners. */
+/** z = Σ weights · corners, the weights made to have sum 1 to the last digit. */
 void NearestInHull::combine() {
   const double sum = weights_.head(count_).sum();
   point_.setZero();
@@ -78,15 +78,24 @@ bool NearestInHull::orthonormalize(Index from) {
   return independent;
 }
 
-/** The weights, of any sign, of the point of the corral's span that is nearest to x. */
+/** The weights, of any sign, of the point of the corral's span that is nearest to x, and the way from it to x. Projecting twice
+ * keeps that orthogonal to the span to its own last digit, however short it is: so heights over the plane through z mean something.
+ */
 void NearestInHull::minimize_in_span() {
-  const Index d = point_.size();
+  const Index d = query_.size();
   for (Index axis = 0; axis < d; ++axis) across_[axis] = query_[axis] - corner(0)[axis];
+  wanted_.setZero();
+  for (int pass = 0; pass < 2; ++pass) {
+    for (Index k = 1; k < count_; ++k) {
+      const double along = dot(across_.data(), &edges_(k, 0), d);
+      wanted_[k] += along;
+      add(across_.data(), -along, &edges_(k, 0), d);
+    }
+  }
   wanted_[0] = 1;
   for (Index k = count_ - 1; k > 0; --k) {
-    double rest = dot(across_.data(), &edges_(k, 0), d);
-    for (Index j = k + 1; j < count_; ++j) rest -= factor_(k, j) * wanted_[j];
-    wanted_[k] = rest / factor_(k, k);
+    for (Index j = k + 1; j < count_; ++j) wanted_[k] -= factor_(k, j) * wanted_[j];
+    wanted_[k] /= factor_(k, k);
     wanted_[0] -= wanted_[k];
   }
 }
@@ -110,47 +119,16 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
   for (Index i = 0; i < n; ++i) {
     for (Index axis = 0; axis < d; ++axis) across_[axis] = query_[axis] - points_(i, axis);
     const double squared = dot(across_.data(), across_.data(), d);
-    if (squared < distance) {
-      distance = squared;
-      corral_[0] = static_cast<std::uint32_t>(i);
-    }
+    if (!(squared < distance)) continue;
+    distance = squared;
+    corral_[0] = static_cast<std::uint32_t>(i);
   }
   weights_[0] = 1;
 
   const Index most = steps_per_axis * (d + 1);
   for (Index step = 0, idle = 0;; ++step) {
-    combine();
-    for (Index axis = 0; axis < d; ++axis) across_[axis] = query_[axis] - point_[axis];
-    distance = std::sqrt(dot(across_.data(), across_.data(), d));
-    if (distance <= tolerance + spread_ || step == most) break;
-    // Close to a corner of the hull progress can be too small for doubles, but not for long.
-    idle = distance < least ? 0 : idle + 1;
-    least = std::min(least, distance);
-    if (idle > d + 1) break;
-
-    // Who lies farthest in front of the plane through z?
-    const double level = dot(across_.data(), point_.data(), d);
-    double highest = level + rounding * (1 + distance);
-    std::uint32_t entering = 0;
-    bool found = false;
-    for (Index i = 0; i < n; ++i) {
-      const double height = dot(across_.data(), &points_(i, 0), d);
-      if (!(height > highest)) continue;
-      highest = height;
-      entering = static_cast<std::uint32_t>(i);
-      found = true;
-    }
-    if (!found || std::find(corral_.begin(), corral_.begin() + count_, entering) != corral_.begin() + count_) break;
-    if (count_ == d + 1) break;  // the span is the whole space, so only rounding can keep z from x
-    corral_[static_cast<std::size_t>(count_)] = entering;
-    weights_[count_++] = 0;
-    if (!orthonormalize(count_ - 1)) {
-      --count_;
-      break;
-    }
-
     // Toward the point wanted in the span, and no farther than to where the first weight vanishes: its corner leaves.
-    while (count_ > 1) {
+    for (;;) {
       minimize_in_span();
       double way = 1;
       Index leaving = -1;
@@ -166,7 +144,33 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
       if (leaving < 0) break;
       leave(leaving);
     }
+    distance = std::sqrt(dot(across_.data(), across_.data(), d));
+    if (distance <= tolerance + spread_ || step == most || count_ > d) break;
+    // A step can be too short for doubles, but not many in a row.
+    idle = distance < least ? 0 : idle + 1;
+    least = std::min(least, distance);
+    if (idle > d + 1) break;
+
+    // Who lies farthest in front of the plane?
+    double highest = dot(across_.data(), corner(0), d) + rounding * distance;
+    std::uint32_t entering = 0;
+    bool found = false;
+    for (Index i = 0; i < n; ++i) {
+      const double height = dot(across_.data(), &points_(i, 0), d);
+      if (!(height > highest)) continue;
+      highest = height;
+      entering = static_cast<std::uint32_t>(i);
+      found = true;
+    }
+    const auto end = corral_.begin() + count_;
+    if (!found || std::find(corral_.begin(), end, entering) != end) break;
+    *end = entering;
+    weights_[count_++] = 0;
+    if (orthonormalize(count_ - 1)) continue;
+    --count_;
+    break;
   }
+  combine();
 
   if (weights) {
     std::fill(weights, weights + n, 0.0);

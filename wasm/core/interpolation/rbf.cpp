@@ -3,192 +3,234 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
+#include "core/interpolation/polynomial.hpp"
+#include "core/interpolation/robust_fit.hpp"
+#include "core/interpolation/width_choice.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace handlebody {
-
 namespace {
 
-// Dimensions count as dependent when a pivot falls below this part of the largest.
-constexpr double rank_tolerance = 1e-10;
-constexpr double largest_cardinal_error = 1e-6;
-
-Index polynomial_count(int degree, Index dimension) {
-  return degree < 0 ? 0 : degree == 0 ? 1 : dimension + 1;
-}
-
-bool vanishes_at_its_place(KernelKind kind) {
-  return kind == KernelKind::linear || kind == KernelKind::cubic || kind == KernelKind::thin_plate;
-}
+/** From here on the report looks for a remedy. */
+constexpr double ill_condition = 1e12;
 
 Error option_error(std::initializer_list<Word> message, std::initializer_list<Word> remedy) {
   return {HB_ERROR_INVALID_OPTION, message, remedy, HB_CULPRIT_OPTION};
 }
 
-Result<Done> check_options(const RadialBasisOptions& options, Index count) {
-  if (options.degree < -1 || options.degree > 1)
-    return option_error({"The degree of the tail is not -1, 0 or 1."}, {"Use -1, 0 or 1."});
-  if (options.normalized && vanishes_at_its_place(options.kernel.kind))
-    return option_error({"This kernel is zero at its own place and cannot be normalized."},
-                        {"Use gaussian, multiquadric, inverse multiquadric or inverse quadratic, or do not normalize."});
-  const int needed = options.kernel.minimum_degree();
-  if (!options.normalized && options.degree < needed)
-    return option_error({"This kernel needs a polynomial tail of degree ", needed, " or more."},
-                        {"Raise the degree to ", needed, "."});
-  if (options.widths.size() != 0 && options.widths.size() != count)
-    return option_error({"There are ", options.widths.size(), " widths for ", count, " places."},
-                        {"Give one width a place, or none."});
-  const bool widths_valid = options.widths.size() == 0 ? options.kernel.width > 0 && std::isfinite(options.kernel.width)
-                                                       : options.widths.allFinite() && options.widths.minCoeff() > 0;
-  if (!widths_valid) return option_error({"A width is not a positive finite number."}, {"Give widths in units of the places."});
+Result<Done> check_options(const RbfOptions& options, Index points, Index dimension) {
+  const Matrix& centers = options.centers;
+  const auto valid = [](double lambda) { return lambda >= 0 && std::isfinite(lambda); };
+  if (!valid(options.smoothing) || !valid(options.weight_decay))
+    return option_error({"Smoothing or weight decay is not zero or a positive finite number."},
+                        {"Use a small positive number, or 0."});
+  if (options.smoothing > 0 && options.weight_decay > 0)
+    return option_error({"Both smoothing and weight decay are asked for."}, {"Use one of the two."});
+  if (options.robust != RobustMethod::none && centers.rows() == 0)
+    return option_error({"A robust fit needs fewer centers than points: with a center at each it would pass through all of them."},
+                        {"Give centers, or look for bad points with findOutliers()."});
+  if (centers.rows() == 0) return Done{};
+  if (options.smoothing > 0)
+    return option_error({"Smoothing needs a center at each point; these are others."}, {"Use weight decay."});
+  if (centers.cols() != dimension)
+    return option_error({"The centers have ", centers.cols(), " coordinates, the points ", dimension, "."},
+                        {"Give centers in the space of the points."});
+  for (Index i = 0; i < centers.rows(); ++i)
+    if (!centers.row(i).allFinite())
+      return Error(HB_ERROR_POINT_NOT_FINITE, {"Center ", i, " is not finite."}, {"Remove NaN and infinite coordinates."},
+                   HB_CULPRIT_CENTER, i);
+  if (centers.rows() > points && options.weight_decay == 0)
+    return Error(HB_ERROR_POINTS_TOO_FEW, {points, " points do not determine ", centers.rows(), " centers."},
+                 {"Use at most ", points, " centers, or weight decay."});
   return Done{};
 }
 
-double largest_row_sum(const MatrixXd& matrix) {
-  double largest = 0;
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    double sum = 0;
-    for (Index j = 0; j < matrix.cols(); ++j) sum += std::abs(matrix(i, j));
-    largest = std::max(largest, sum);
+/** A kernel of the caller's that gave no number: between which point and center. */
+Error kernel_error(RadialBasis& basis, const Matrix& points) {
+  Vector row(basis.size());
+  for (Index i = 0; i < points.rows(); ++i) {
+    basis.values(&points(i, 0), row.data());
+    for (Index k = 0; k < basis.centers(); ++k)
+      if (!std::isfinite(row[k]))
+        return {HB_ERROR_KERNEL_FAILED,
+                {"The kernel gives ", row[k], " between point ", i, " and center ", k, "."},
+                {"Return a finite number for every distance from 0 on."},
+                HB_CULPRIT_POINT,
+                i};
   }
-  return largest;
-}
-
-/** Dimension of the affine span of the scaled `places`: Gram–Schmidt with column pivoting (Eigen's QR would be 20 kB of wasm). */
-Index affine_rank(const Matrix& places) {
-  Eigen::MatrixXd rest = places.rowwise() - places.colwise().mean();
-  double largest = 0;
-  for (Index rank = 0; rank < rest.cols(); ++rank) {
-    Index pivot = 0;
-    const double norm = std::sqrt(rest.colwise().squaredNorm().maxCoeff(&pivot));
-    largest = std::max(largest, norm);
-    if (norm <= rank_tolerance * largest) return rank;
-    const Vector direction = rest.col(pivot) / norm;
-    for (int twice = 0; twice < 2; ++twice)  // the second pass removes what rounding left of the first
-      for (Index j = 0; j < rest.cols(); ++j) rest.col(j) -= direction.dot(rest.col(j)) * direction;
-  }
-  return rest.cols();
-}
-
-/** Checks that the scaled `places` determine a polynomial of degree 1. */
-Result<Done> check_span(const Matrix& places) {
-  const Index count = places.rows(), dimension = places.cols();
-  if (count < dimension + 1)
-    return Error(HB_ERROR_EXAMPLES_TOO_FEW,
-                 {count, (count == 1 ? " place does" : " places do"), " not determine a linear function of ", dimension,
-                  (dimension == 1 ? " dimension." : " dimensions.")},
-                 {"Add places until there are ", dimension + 1,
-                  ", or use degree 0, which any number of places supports (with a kernel such as multiquadric)."});
-  const Index spanned = affine_rank(places);
-  if (spanned == dimension) return Done{};
-  return Error(HB_ERROR_EXAMPLES_DEGENERATE,
-               {"The places span ", spanned,
-                spanned == 0   ? " dimensions (they coincide)"
-                : spanned == 1 ? " dimension only (they lie on one line)"
-                               : " dimensions only",
-                ", which does not determine a linear function of ", dimension, " dimensions."},
-               {"Use degree 0 (with a kernel such as multiquadric), add a place outside, or drop a dimension."});
+  return {HB_ERROR_KERNEL_FAILED, {"The kernel gives numbers that are too large."}, {"Scale it down."}};
 }
 
 }  // namespace
 
-Result<RadialBasisInterpolant> RadialBasisInterpolant::create(const Eigen::Ref<const Matrix>& places,
-                                                              const RadialBasisOptions& options) {
-  const Index count = places.rows(), dimension = places.cols();
-  if (count == 0 || dimension == 0) return Error(HB_ERROR_EXAMPLES_TOO_FEW, {"There are no places."}, {"Give at least one place."});
-  for (Index i = 0; i < count; ++i)
-    if (!places.row(i).allFinite())
-      return Error(HB_ERROR_EXAMPLE_NOT_FINITE, {"Place ", i, " is not finite."}, {"Remove NaN and infinite coordinates."},
-                   HB_CULPRIT_EXAMPLE, i);
-  if (auto checked = check_options(options, count); !checked) return checked.error();
+Result<Done> check_size(double points, double centers, double polynomials) {
+  const double size = centers + polynomials;
+  const double bytes = 8 * size * std::max(size, points);
+  if (bytes <= largest_matrix_bytes) return Done{};
+  return Error(HB_ERROR_OUT_OF_MEMORY,
+               {points, " points with ", centers, " centers make a dense matrix of ", bytes / largest_matrix_bytes,
+                " GiB; 1 GiB is the most that is allocated."},
+               {"Give fewer centers than points, use a part of the points, or a method without a matrix, such as shepard()."});
+}
 
-  RadialBasisInterpolant rbf;
-  rbf.kernel_ = options.kernel;
-  rbf.degree_ = options.degree;
-  rbf.normalized_ = options.normalized;
+Result<Rbf> Rbf::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values, const RbfOptions& given) {
+  const auto count = static_cast<double>(points.rows());
+  const auto center_count = static_cast<double>(given.centers.rows());
+  const auto tail = static_cast<double>(polynomial_count(std::clamp(given.basis.degree, -1, 2), points.cols()));
+  if (auto fits = check_size(count, center_count > 0 ? center_count : count, tail); !fits) return fits.error();
+  if (auto valid = check_options(given, points.rows(), points.cols()); !valid) return valid.error();
+  const bool interpolates = given.smoothing == 0 && given.weight_decay == 0 && given.centers.rows() == 0;
+  auto data = check_data(points, values, interpolates ? Coincident::merge : Coincident::keep);
+  if (!data) return data.error();
 
-  // Unit box. Halving first keeps the extent of huge coordinates from overflowing.
-  const Vector lower = places.colwise().minCoeff(), upper = places.colwise().maxCoeff();
-  const double diagonal = 2 * safe_norm(upper / 2 - lower / 2);
-  rbf.center_ = upper / 2 + lower / 2;
-  rbf.scale_ = diagonal > 0 ? 1 / diagonal : 1;
-  if (!std::isfinite(diagonal) || !std::isfinite(rbf.scale_) || rbf.scale_ == 0)
-    return Error(HB_ERROR_EXAMPLES_DEGENERATE, {"The extent of the places, ", diagonal, ", is beyond double precision."},
-                 {"Rescale the places to ordinary numbers."});
-  rbf.places_ = (places.rowwise() - rbf.center_.transpose()) * rbf.scale_;
-  rbf.widths_ = options.widths.size() ? options.widths : Vector::Constant(count, options.kernel.width);
-  rbf.widths_ *= rbf.scale_;
-  if (!(rbf.widths_.minCoeff() >= 1e-30 && rbf.widths_.maxCoeff() <= 1e30))
-    return option_error({"A width is out of all proportion to the extent of the places."}, {"Give widths in units of the places."});
-  rbf.amplitudes_ = Vector::Ones(count);
-  if (options.kernel.kind == KernelKind::multiquadric) rbf.amplitudes_ = rbf.widths_ / rbf.widths_.maxCoeff();
-  if (options.degree == 1)
-    if (auto spanned = check_span(rbf.places_); !spanned) return spanned.error();
+  RbfOptions options = given;
+  if (!options.basis.kernel.has_width()) options.width_choice = WidthChoice::given;
+  if (options.width_choice == WidthChoice::spacing) options.basis.kernel.width = spacing_width(data->points, options.basis);
+  if (options.width_choice == WidthChoice::leave_one_out) options.basis.kernel.width = leave_one_out_width(*data, options);
+  options.width_choice = WidthChoice::given;
 
-  // The block matrix: its first n rows are the basis at the places themselves.
-  const Index size = count + polynomial_count(options.degree, dimension);
-  rbf.query_.resize(dimension);
-  rbf.basis_.resize(size);
-  MatrixXd system = MatrixXd::Zero(size, size);  // transposed: one column a place
-  for (Index i = 0; i < count; ++i) {
-    rbf.evaluate_basis(rbf.places_.row(i).transpose(), rbf.basis_);
-    system.col(i) = rbf.basis_;
+  if (interpolates && options.basis.widths.size() == data->given && data->given > data->points.rows()) {
+    for (std::size_t k = 0; k < data->kept.size(); ++k)
+      options.basis.widths[static_cast<Index>(k)] = options.basis.widths[data->kept[k]];
+    options.basis.widths.conservativeResize(data->points.rows());
   }
-  for (Index i = 0; i < count; ++i)
-    for (Index j = count; j < size; ++j) system(i, j) = system(j, i);
-
-  // Indefinite even when symmetric, so LU and not Cholesky; in place, since n² doubles may be most of the memory.
-  const double norm = largest_row_sum(system);
-  std::vector<Index> pivots;
-  factor_lu(system, pivots);
-  rbf.cardinal_ = MatrixXd::Identity(count, size);
-  solve_lu(system, pivots, rbf.cardinal_);
-  rbf.condition_ = norm * largest_row_sum(rbf.cardinal_);
-
-  // LU of a singular matrix still returns something, so the promise itself is tested: 1 at the own place, 0 at the others.
-  Vector weights(count);
-  for (Index i = 0; i < count; ++i) {
-    rbf.evaluate_basis(rbf.places_.row(i).transpose(), rbf.basis_);
-    multiply(rbf.cardinal_, rbf.basis_, weights);
-    weights[i] -= 1;
-    const double error = weights.lpNorm<Eigen::Infinity>();
-    rbf.cardinal_error_ = error <= rbf.cardinal_error_ ? rbf.cardinal_error_ : error;  // a NaN stays
-    if (!(error <= largest_cardinal_error))
-      return Error(HB_ERROR_EXAMPLES_DEGENERATE,
-                   {"The interpolation system is singular in double precision (condition number ", rbf.condition_,
-                    "); it misses place ", i, " by ", error, "."},
-                   {"Use a smaller width, move places apart that almost coincide, or choose another kernel."}, HB_CULPRIT_EXAMPLE,
-                   i);
-  }
+  auto basis = RadialBasis::create(data->points, options.centers.rows() ? options.centers : data->points, options.basis);
+  if (!basis) return basis.error();
+  Rbf rbf(std::move(*data), std::move(*basis), options);
+  if (!std::isfinite(rbf.fit_->norm())) return kernel_error(rbf.basis_, rbf.data_.points);
+  if (!rbf.coefficients_.allFinite())
+    return Error(HB_ERROR_SYSTEM_SINGULAR, {"The interpolation equations are singular in double precision."},
+                 {"Use a smaller width, another kernel, or some smoothing or weight decay."});
   return rbf;
 }
 
-void RadialBasisInterpolant::evaluate_basis(const Eigen::Ref<const Vector>& scaled_query, Eigen::Ref<Vector> out) const {
-  const Index count = places_.rows();
-  Kernel kernel = kernel_;
-  auto radial = out.head(count);
-  if (normalized_ && kernel_.kind == KernelKind::gaussian) {
-    // Far from all places every Gaussian underflows and 0/0 would follow; the smallest exponent cancels in the quotient.
-    for (Index i = 0; i < count; ++i) radial[i] = (places_.row(i).transpose() - scaled_query).norm() / widths_[i];
-    radial = radial.array().square();
-    radial = (radial.minCoeff() - radial.array()).exp();
+Rbf::Rbf(ScatteredData data, RadialBasis basis, const RbfOptions& options)
+    : Interpolant(std::move(data)),
+      basis_(std::move(basis)),
+      options_(options),
+      row_(basis_.size()),
+      gradients_(basis_.size(), basis_.dimension()) {
+  const Matrix& points = data_.points;
+  if (options_.centers.rows() == 0 && options_.weight_decay == 0) {
+    fit_ = fit_interpolant(basis_, points, options_.smoothing);
   } else {
-    for (Index i = 0; i < count; ++i) {
-      kernel.width = widths_[i];
-      radial[i] = amplitudes_[i] * kernel((places_.row(i).transpose() - scaled_query).norm());
+    const Matrix& centers = options_.centers.rows() ? options_.centers : points;
+    if (options_.robust != RobustMethod::none) {
+      const MatrixXd design = design_matrix(basis_, points, centers);
+      row_weights_ = options_.robust == RobustMethod::least_median ? least_median_weights(design, data_.values)
+                                                                   : least_absolute_weights(design, data_.values);
     }
+    fit_ = fit_least_squares(basis_, points, centers, options_.weight_decay, row_weights_);
   }
-  if (normalized_) radial /= radial.sum();
-  if (degree_ >= 0) out[count] = 1;
-  if (degree_ >= 1) out.tail(places_.cols()) = scaled_query;
+  coefficients_ = fit_->coefficients(data_.values);
 }
 
-void RadialBasisInterpolant::weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out) {
-  query_ = (query - center_) * scale_;
-  evaluate_basis(query_, basis_);
-  multiply(cardinal_, basis_, out);
+void Rbf::evaluate(const double* queries, Index count, double* out) {
+  basis_.combine(coefficients_, queries, count, out);
+}
+
+void Rbf::gradient(const double* queries, Index count, double* out) {
+  const Index d = dimension(), m = outputs();
+  for (Index q = 0; q < count; ++q, queries += d, out += m * d) {
+    basis_.gradients(queries, gradients_.data());
+    for (Index axis = 0; axis < d; ++axis) {
+      for (Index j = 0; j < m; ++j) {
+        double sum = 0;
+        for (Index i = 0; i < basis_.size(); ++i) sum += coefficients_(j, i) * gradients_(i, axis);
+        out[j * d + axis] = sum;
+      }
+    }
+  }
+}
+
+const MatrixXd& Rbf::cardinal() {
+  if (cardinal_.size() == 0) {
+    const Index n = data_.points.rows();
+    cardinal_ = fit_->coefficients(Matrix::Identity(n, n));
+  }
+  return cardinal_;
+}
+
+void Rbf::weigh(const double* query, double* w, double* slopes) {
+  const Index n = data_.points.rows(), d = dimension();
+  basis_.values(query, row_.data());
+  multiply(cardinal(), row_, Eigen::Map<Vector>(w, n));
+  if (!slopes) return;
+  basis_.gradients(query, gradients_.data());
+  for (Index k = 0; k < n; ++k) {
+    for (Index axis = 0; axis < d; ++axis) {
+      double sum = 0;
+      for (Index i = 0; i < basis_.size(); ++i) sum += cardinal_(k, i) * gradients_(i, axis);
+      slopes[k * d + axis] = sum;
+    }
+  }
+}
+
+Matrix Rbf::kernel_coefficients() const {
+  const bool own = options_.centers.rows() != 0;
+  Matrix result = Matrix::Zero(own ? basis_.centers() : size(), outputs());
+  for (Index i = 0; i < basis_.centers(); ++i)
+    for (Index j = 0; j < outputs(); ++j)
+      result(own ? i : data_.kept[static_cast<std::size_t>(i)], j) = basis_.amplitude_of_scale() * coefficients_(j, i);
+  return result;
+}
+
+Vector Rbf::row_weights() const {
+  return row_weights_.size() ? row_weights_ : Vector::Ones(size());
+}
+
+Result<Matrix> Rbf::leave_one_out() {
+  if (basis_.normalized())
+    return option_error({"A normalized basis changes with every point, so leaving one out takes a new fit each."},
+                        {"Use a kernel that is not normalized."});
+  if (row_weights_.size())
+    return option_error({"A robust fit is not linear in the data, so leaving a point out takes a new fit each."},
+                        {"Leave out `robust`."});
+  const Index n = data_.points.rows(), m = outputs();
+  Matrix kept(n, m);
+  const bool saddle = options_.centers.rows() == 0 && options_.weight_decay == 0;
+  Vector w(n), fitted(m);
+  for (Index i = 0; i < n; ++i) {
+    if (saddle) {
+      for (Index j = 0; j < m; ++j) kept(i, j) = coefficients_(j, i) / cardinal()(i, i);
+      continue;
+    }
+    weigh(&data_.points(i, 0), w.data(), nullptr);
+    evaluate(&data_.points(i, 0), 1, fitted.data());
+    for (Index j = 0; j < m; ++j) kept(i, j) = (data_.values(i, j) - fitted[j]) / (1 - w[i]);
+  }
+  Matrix errors = Matrix::Zero(size(), m);
+  for (Index i = 0; i < n; ++i) errors.row(data_.kept[static_cast<std::size_t>(i)]) = kept.row(i);
+  for (Index i = 0; i < size(); ++i) {
+    const std::uint32_t twin = data_.twin_of[static_cast<std::size_t>(i)];
+    if (static_cast<Index>(twin) != i) errors.row(twin).setZero();
+  }
+  return errors;
+}
+
+RbfReport Rbf::report() {
+  RbfReport report;
+  const Index n = data_.points.rows();
+  report.condition = fit_->condition();
+  Matrix fitted(n, outputs());
+  evaluate(data_.points.data(), n, fitted.data());
+  for (Index i = 0; i < fitted.size(); ++i) {
+    const double misfit = std::abs(fitted.data()[i] - data_.values.data()[i]);
+    if (!(report.residual >= misfit) && !std::isnan(report.residual)) report.residual = misfit;  // a NaN stays
+  }
+  report.spacing = n > 1 ? nearest_distances(basis_.to_inner(data_.points)).mean() / basis_.scale() : 0;
+  report.least_width = basis_.widths().minCoeff();
+  report.largest_width = basis_.widths().maxCoeff();
+  if (report.condition <= ill_condition) return report;
+  if (basis_.kernel().has_width() && basis_.kernel().kind != KernelKind::clamped_plate && options_.basis.widths.size() == 0)
+    report.suggested_width = comfortable_width(data_, options_);
+  // R + λI has a condition number of about ‖R‖/λ.
+  if (options_.centers.rows() == 0 && options_.weight_decay == 0) {
+    const double enough = fit_->norm() / comfortable_condition / basis_.amplitude_of_scale();
+    report.suggested_smoothing = std::exp(std::ceil(std::log(enough) / std::log(10.0)) * std::log(10.0));
+  }
+  return report;
 }
 
 }  // namespace handlebody

@@ -1,78 +1,101 @@
-// Radial basis interpolation of scattered data: factor once, evaluate many times.
+// Radial basis interpolation of scattered data (2014 course, §4.4 and §5): factor once, evaluate many times.
 //
-//   f(x) = Σᵢ cᵢ Rᵢ(‖x − xᵢ‖) + Σⱼ dⱼ pⱼ(x),    [ R  P ] [c]   [f]
-//                                                [ Pᵀ 0 ] [d] = [0]       (2014 course, eqs. (1) of §4.4 and §5.2)
+//   f(x) = Σᵢ cᵢ φᵢ(x) + Σⱼ dⱼ pⱼ(x)
 //
-// with P the polynomials up to `degree`. Instead of coefficients for one set of values the class keeps those of all n cardinal
-// functions, so that the value at x is Σ wₖ(x) fₖ for any values f:
-//
-//   w(x) = first n entries of [R(x) P(x)] · inverse of the block matrix,   wₖ(xᵢ) = 1 if i = k, else 0.
-//
-// `normalized` divides every basis function by their sum, φᵢ = Rᵢ / Σⱼ Rⱼ (eq. (1) of the IRBF paper; course §4.4.1). Constants are
-// then in the span of the basis: the weights sum to 1 without a tail, and stay bounded far away.
-//
-// Inside, places are moved and scaled to a bounding box with a unit diagonal. This changes the conditioning and not the result:
-// widths are scaled along, r and r³ are homogeneous, and r² ln r changes by a multiple of r², which the side conditions of its
-// linear tail turn into a constant.
+// through the values, near them (`smoothing`, `weight_decay`), or with fewer centers than points by least squares; see
+// linear_fit.hpp for the equations and radial_basis.hpp for the functions.
 #pragma once
 
-#include "core/kernels/kernel.hpp"
-#include "core/numerics/result.hpp"
-#include "core/numerics/types.hpp"
+#include <memory>
+
+#include "core/interpolation/interpolant.hpp"
+#include "core/interpolation/linear_fit.hpp"
+#include "core/interpolation/radial_basis.hpp"
 
 namespace handlebody {
 
-struct RadialBasisOptions {
-  Kernel kernel;            // width in units of the places
-  int degree = -1;          // of the polynomial tail: −1 (none), 0 or 1; at least kernel.minimum_degree() unless normalized
-  bool normalized = false;  // needs a kernel without zeros: gaussian, multiquadric or one of the inverse ones
+/** Numbers are part of the C interface. */
+enum class WidthChoice : unsigned {
+  given = 0,
+  spacing = 1,        // from the mean distance to the nearest neighbor: width_choice.hpp
+  leave_one_out = 2,  // least leave-one-out error
+};
+constexpr unsigned width_choice_count = 3;
 
-  // One width a place instead of kernel.width (n, units of the places), or empty. Multiquadrics are then scaled by their widths,
-  // √(hᵢ² + r²), so that all grow alike and the side condition Σcᵢ = 0 still cancels the growth. No theorem guarantees that
-  // unequal widths give a regular matrix: create() checks the result.
-  Vector widths = {};
+/** Numbers are part of the C interface. */
+enum class RobustMethod : unsigned { none = 0, least_absolute = 1, least_median = 2 };  // robust_fit.hpp
+constexpr unsigned robust_method_count = 3;
+
+struct RbfOptions {
+  RadialBasisOptions basis;
+  WidthChoice width_choice = WidthChoice::given;
+  double smoothing = 0;                      // λ ≥ 0 of R + λI, in units of the kernel; needs a center at each point
+  double weight_decay = 0;                   // λ ≥ 0 of eq. (3), in units of the kernel squared
+  Matrix centers = {};                       // k×d, or empty for the points themselves
+  RobustMethod robust = RobustMethod::none;  // needs fewer centers than points
 };
 
-class RadialBasisInterpolant {
+/** What a fit is worth. Lengths in units of the points. */
+struct RbfReport {
+  double condition = 0;  // 1-norm condition number of the factored equations: an estimate, rarely more than three times too small
+  double residual = 0;   // largest misfit at a point
+  double spacing = 0;    // mean distance of the points to their nearest neighbors; 0 for a single point
+  double least_width = 0, largest_width = 0;
+  double suggested_width = 0;      // where ill conditioned: one with a condition number of about comfortable_condition; else 0
+  double suggested_smoothing = 0;  // likewise
+};
+constexpr double comfortable_condition = 1e8;
+
+class Rbf final : public Interpolant {
  public:
-  /** Factors the system for `places` (n×d, any d ≥ 1). O((n+p)³), p = 0, 1 or d + 1 polynomials.
-   *
-   * Fails with EXAMPLES_TOO_FEW (n = 0, or n < p), EXAMPLE_NOT_FINITE (culprit: the place), EXAMPLES_DEGENERATE (the places do not
-   * determine the polynomials, e.g. on one line for degree 1; or the matrix is singular to double precision, as for coincident
-   * places and for widths far beyond the spacing), or INVALID_OPTION. */
-  static Result<RadialBasisInterpolant> create(const Eigen::Ref<const Matrix>& places, const RadialBasisOptions& options);
+  /** Fails with the codes of check_data() and RadialBasis::create(), OUT_OF_MEMORY (a matrix of more than largest_matrix_bytes,
+   * refused before it is allocated), KERNEL_FAILED, SYSTEM_SINGULAR, or INVALID_OPTION. */
+  static Result<Rbf> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
+                            const RbfOptions& options);
 
-  Index size() const { return places_.rows(); }
-  Index dimension() const { return places_.cols(); }
+  void evaluate(const double* queries, Index count, double* out) override;
+  void gradient(const double* queries, Index count, double* out) override;
 
-  /** The n cardinal weights at `query` (d). Allocates nothing; O(n(n+p)). Not const: it uses the object's own scratch space.
-   * Finite for every query within 1e100 diagonals of the data. */
-  void weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out);
+  const RadialBasis& basis() const { return basis_; }
+  const LinearFit& fit() const { return *fit_; }
 
-  /** max |wₖ(xᵢ) − δᵢₖ| over the data, as checked by create(): at most 1e-6, and mostly below 1e-12. */
-  double cardinal_error() const { return cardinal_error_; }
+  RbfReport report();
 
-  /** 1-norm condition number of the scaled block matrix, from the n columns of its inverse that are kept: exact without a tail. */
-  double condition() const { return condition_; }
+  /** The kernels' coefficients c (k×m), in the caller's units. */
+  Matrix kernel_coefficients() const;
+
+  /** Error of each prediction fᵢ − f₋ᵢ(xᵢ) (n×m, the points as given) where f₋ᵢ is fitted without point i: exact, and without
+   * refitting. With a center at each point it is cᵢ/(A⁻¹)ᵢᵢ from the inverse of the block matrix A, for any kernel, tail, smoothing
+   * and widths (held fixed); with fixed centers (fᵢ − f(xᵢ))/(1 − Hᵢᵢ), H the matrix from values to fitted values. A point that has
+   * a twin is predicted by it. Fails with INVALID_OPTION for normalized kernels, whose basis changes with every point, and for
+   * robust fits. */
+  Result<Matrix> leave_one_out();
+
+  /** How much each point counts (n as given): 1, or less where a robust fit mistrusts it. */
+  Vector row_weights() const;
+
+  /** The n×size() matrix whose row k has the coefficients of the k-th cardinal function. Made at first use. */
+  const MatrixXd& cardinal();
 
  private:
-  RadialBasisInterpolant() = default;
+  Rbf(ScatteredData data, RadialBasis basis, const RbfOptions& options);
 
-  void evaluate_basis(const Eigen::Ref<const Vector>& scaled_query, Eigen::Ref<Vector> out) const;
+  void weigh(const double* query, double* w, double* slopes) override;
 
-  Kernel kernel_;
-  int degree_ = -1;
-  bool normalized_ = false;
-  Vector center_;      // d: data units
-  double scale_ = 1;   // scaled = (x − center) · scale
-  Matrix places_;      // n×d, scaled
-  Vector widths_;      // n, scaled
-  Vector amplitudes_;  // n: factor of each kernel
-  MatrixXd cardinal_;  // n×(n+p): row k holds the coefficients of the k-th cardinal function
-  Vector query_;       // d: scratch
-  Vector basis_;       // n+p: scratch
-  double cardinal_error_ = 0;
-  double condition_ = 1;
+  RadialBasis basis_;
+  RbfOptions options_;
+  std::unique_ptr<LinearFit> fit_;
+  Vector row_weights_;     // n, or empty
+  MatrixXd coefficients_;  // m×size()
+  MatrixXd cardinal_;      // n×size(), or empty as yet
+  Vector row_;             // scratch
+  MatrixXd gradients_;     // size()×d, scratch
 };
+
+/** The largest dense matrix that is allocated: 1 GiB. */
+constexpr double largest_matrix_bytes = 1073741824.0;
+
+/** OUT_OF_MEMORY where the matrices for so many points and centers are too large, with the size that they would have. */
+Result<Done> check_size(double points, double centers, double polynomials);
 
 }  // namespace handlebody

@@ -87,18 +87,26 @@ Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const E
 }
 
 Vector nearest_distances(const Matrix& points) {
-  const Index count = points.rows();
-  Vector nearest = Vector::Constant(count, std::numeric_limits<double>::infinity());
-  Vector apart(points.cols());
-  for (Index i = 1; i < count; ++i) {
-    for (Index j = 0; j < i; ++j) {
-      apart = points.row(i) - points.row(j);
-      const double distance = safe_norm(apart);
-      nearest[i] = std::min(nearest[i], distance);
-      nearest[j] = std::min(nearest[j], distance);
+  const Index count = points.rows(), d = points.cols();
+  // Plain loops over plain memory: this file is compiled for size, and n² pairs are looked at.
+  const double scale = std::max(points.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  Matrix scaled = points / scale;
+  Vector squares = Vector::Constant(count, std::numeric_limits<double>::infinity());
+  double* nearest = squares.data();
+  const double* a = scaled.data();
+  for (Index i = 0; i < count; ++i, a += d) {
+    double least = nearest[i];
+    const double* b = scaled.data();
+    for (Index j = 0; j < i; ++j, b += d) {
+      double squared = 0;
+      for (Index axis = 0; axis < d; ++axis) squared += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+      if (squared < least) least = squared;
+      if (squared < nearest[j]) nearest[j] = squared;
     }
+    nearest[i] = least;
   }
-  return nearest;
+  for (Index i = 0; i < count; ++i) nearest[i] = scale * std::sqrt(nearest[i]);
+  return squares;
 }
 
 }  // namespace handlebody

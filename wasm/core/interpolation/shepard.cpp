@@ -5,7 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include "core/numerics/dense.hpp"
+
 namespace handlebody {
+namespace {
+
+constexpr double huge = 1e300;  // stands for infinity: quotients and products with weights stay numbers
+
+}  // namespace
 
 Result<Shepard> Shepard::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                                 const ShepardOptions& options) {
@@ -22,39 +29,50 @@ Result<Shepard> Shepard::create(const Eigen::Ref<const Matrix>& points, const Ei
 
 void Shepard::weigh(const double* query, double* w, double* slopes) {
   const Index n = data_.points.rows(), d = dimension();
-  const double p = options_.power;
+  const double p = options_.power, unit = data_.diagonal > 0 ? data_.diagonal : 1;  // of all lengths below
   double nearest = std::numeric_limits<double>::infinity();
   Index own = 0;
   for (Index k = 0; k < n; ++k) {
-    double squared = 0;
-    for (Index axis = 0; axis < d; ++axis) {
-      const double apart = query[axis] - data_.points(k, axis);
-      squared += apart * apart;
-    }
-    w[k] = std::sqrt(squared) + options_.epsilon;
+    w[k] = std::min((safe_distance(query, &data_.points(k, 0), d) + options_.epsilon) / unit, huge);
     if (w[k] < nearest) nearest = w[own = k];
   }
   if (slopes) std::fill(slopes, slopes + n * d, 0.0);
+  const bool at_point = safe_distance(query, &data_.points(own, 0), d) == 0;
+  if (slopes && data_.diagonal > 0 && at_point && (p <= 1 || nearest > 0)) {
+    std::fill(slopes, slopes + n * d, std::numeric_limits<double>::quiet_NaN());
+    slopes = nullptr;
+  }
   if (!(nearest > 0)) {  // at a point, where the weights are its own and, for p > 1, flat
     std::fill(w, w + n, 0.0);
     w[own] = 1;
-    if (slopes && p <= 1) std::fill(slopes, slopes + n * d, std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  double sum = 0;
-  if (slopes)  // ∇ ln wₖ = −p (x − xₖ) / (r (r + ε)), which the quotient below turns into the weight's own
+  if (slopes)  // ∇ ln wₖ = −p/(r + ε) · (x − xₖ)/r
     for (Index k = 0; k < n; ++k) {
-      const double r = w[k] - options_.epsilon;
-      for (Index axis = 0; r > 0 && axis < d; ++axis)
-        slopes[k * d + axis] = -p * (query[axis] - data_.points(k, axis)) / (r * w[k]);
+      const double* point = &data_.points(k, 0);
+      const double r = safe_distance(query, point, d), steepness = std::min(p / w[k], huge);
+      for (Index axis = 0; r > 0 && std::isfinite(r) && axis < d; ++axis)
+        slopes[k * d + axis] = -steepness * ((query[axis] - point[axis]) / r);
     }
-  for (Index k = 0; k < n; ++k) sum += w[k] = std::exp(p * std::log(nearest / w[k]));  // relative to the nearest: no overflow
-  for (Index k = 0; k < n; ++k) w[k] /= sum;
+  double others = 0;
+  for (Index k = 0; k < n; ++k) {
+    w[k] = std::exp(p * std::log(nearest / w[k]));  // relative to the nearest: no overflow
+    if (k != own) others += w[k];
+  }
+  for (Index k = 0; k < n; ++k) w[k] /= 1 + others;
+  others /= 1 + others;
   if (!slopes) return;
-  for (Index axis = 0; axis < d; ++axis) {  // ∇(wₖ/Σw) = wₖ/Σw · (∇ ln wₖ − Σⱼ wⱼ/Σw ∇ ln wⱼ)
+  // With wₖ for wₖ/Σw from here on, ∇wₖ = wₖ (∇ ln wₖ − Σⱼ wⱼ ∇ ln wⱼ). Near a point its own logarithm is as steep as p/r and all
+  // but cancels: 1 − w there is the sum of the others.
+  for (Index axis = 0; axis < d; ++axis) {
     double mean = 0;
-    for (Index k = 0; k < n; ++k) mean += w[k] * slopes[k * d + axis];
-    for (Index k = 0; k < n; ++k) slopes[k * d + axis] = w[k] * (slopes[k * d + axis] - mean);
+    for (Index k = 0; k < n; ++k)
+      if (k != own) mean += w[k] * slopes[k * d + axis];
+    const double steep = slopes[own * d + axis];
+    for (Index k = 0; k < n; ++k) {
+      double& slope = slopes[k * d + axis];
+      slope = w[k] * ((k == own ? others * steep : slope - w[own] * steep) - mean) / unit;
+    }
   }
 }
 

@@ -2,8 +2,13 @@
 //
 //   f(x) = Σ wₖ(x) fₖ / Σ wₖ(x),    wₖ(x) = (‖x − xₖ‖ + ε)⁻ᵖ.
 //
-// With ε = 0 the value at a point is the point's own, as the limit has it; any ε > 0 only approximates. For p > 1 the gradient is
-// zero at every point (flat spots, Fig. 9); for p ≤ 1 there is a cusp (Fig. 10) and no gradient. Far away all weights become 1/n.
+// With ε = 0 the value at a point is the point's own, as the limit has it. For p > 1 the gradient is then zero at every point (flat
+// spots, Fig. 9); for p ≤ 1 there is a cusp (Fig. 10) and no gradient. Any ε > 0 only approximates, missing the value at point i by
+//
+//   Σₖ qₖ (fₖ − fᵢ) / (1 + Σₖ qₖ),    qₖ = (ε / (‖xᵢ − xₖ‖ + ε))ᵖ    over all other points k,
+//
+// and makes a small cusp of every point, whatever p, since (r + ε)⁻ᵖ is steep at r = 0. Values never leave the range of the data.
+// Far away all weights become 1/n; a large p follows the nearest point. Distances of any size are safe.
 #pragma once
 
 #include "core/interpolation/interpolant.hpp"
@@ -17,13 +22,14 @@ struct ShepardOptions {
 
 class Shepard final : public Interpolant {
  public:
-  /** Fails with the codes of check_data() or INVALID_OPTION. */
+  /** Fails with the codes of check_data() or INVALID_OPTION. Points may coincide where ε > 0. */
   static Result<Shepard> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                                 const ShepardOptions& options = {});
 
  private:
   Shepard(ScatteredData data, const ShepardOptions& options) : Interpolant(std::move(data)), options_(options) {}
 
+  /** Slopes are NaN where there is a cusp. */
   void weigh(const double* query, double* w, double* slopes) override;
 
   ShepardOptions options_;

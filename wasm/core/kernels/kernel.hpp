@@ -1,31 +1,85 @@
-// Radial kernels. The width enters as r/width; a kernel without a width ignores it.
+// Radial kernels φ(s) of s = r/width, and what is known of their definiteness. A kernel without a width ignores it.
+//
+// "Definite to dimension" says where the interpolation matrix is regular for every set of distinct points, given a polynomial tail
+// of minimum_degree() or more: Wendland, Scattered Data Approximation (2005), chapters 6–9; Fasshauer, Meshfree Approximation
+// Methods with MATLAB (2007), appendix D; Buhmann, Math. Comp. 70 (2001).
 #pragma once
 
+#include "core/kernels/tension_kernel.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
 
 /** Numbers are part of the C interface. */
 enum class KernelKind : unsigned {
-  linear = 0,                // r
-  cubic = 1,                 // r³
-  thin_plate = 2,            // r² ln r
-  gaussian = 3,              // exp(−(r/width)²)
-  multiquadric = 4,          // √(1 + (r/width)²)
-  inverse_multiquadric = 5,  // 1/√(1 + (r/width)²); with width h this is h·Φ of paper 001
-  inverse_quadratic = 6,     // 1/(1 + (r/width)²)
+  linear = 0,                // r: the biharmonic kernel in 3D
+  cubic = 1,                 // r³: biharmonic in 1D (the natural cubic spline), triharmonic in 3D
+  thin_plate = 2,            // r² ln r: biharmonic in 2D
+  gaussian = 3,              // exp(−s²)
+  multiquadric = 4,          // √(1 + s²)
+  inverse_multiquadric = 5,  // 1/√(1 + s²); with width h this is h·Φ of paper 001
+  inverse_quadratic = 6,     // 1/(1 + s²)
+  quintic = 7,               // r⁵: triharmonic in 1D
+  polyharmonic = 8,          // r^e, or r^e ln r for even e; e = 2·order − dimension
+  wendland_c0 = 9,           // (1−s)^ℓ, all three zero beyond s = 1; ℓ = ⌊dimension/2⌋ + 1, + 2, + 3
+  wendland_c2 = 10,          // (1−s)^(ℓ+1) ((ℓ+1)s + 1)
+  wendland_c4 = 11,          // (1−s)^(ℓ+2) ((ℓ²+4ℓ+3)s² + (3ℓ+6)s + 3)/3
+  buhmann = 12,              // 12s⁴ ln s − 21s⁴ + 32s³ − 12s² + 1, zero beyond s = 1: six times that of paper 001, §3.1
+  compact_inverse_multiquadric = 13,  // 1/√(1+s²) − 1/√(1+S²), zero beyond s = S = `support`: Φ_CIMQ of paper 001, §3.1
+  clamped_plate = 14,                 // not radial: clamped_plate.hpp
+  custom = 15,                        // the caller's
+  tension = 16,                       // tension_kernel.hpp
 };
-constexpr unsigned kernel_count = 7;
+constexpr unsigned kernel_count = 17;
+/** Kernels below this number are functions of r and the width alone, in any dimension. */
+constexpr unsigned plain_kernel_count = 8;
+
+/** A kernel of the caller's, as a function of s = r/width: φ(s), and φ′(s) where `derivative` is true. */
+struct CustomKernel {
+  double (*function)(const void* context, double s, bool derivative) = nullptr;
+  const void* context = nullptr;
+  int minimum_degree = -1;  // what the caller says of it
+};
 
 struct Kernel {
   KernelKind kind = KernelKind::gaussian;
   double width = 1;
+  int exponent = 3;    // e of polyharmonic, ℓ of Wendland
+  double support = 4;  // S of the compact inverse multiquadric
+  CustomKernel custom = {};
+  TensionKernel tension = {};
+
+  /** The kernel of that kind in `dimension` dimensions: sets the exponent. `order` is that of polyharmonic's Laplacian (2
+   * biharmonic, 3 triharmonic …), with 2·order > dimension. */
+  static Kernel of(KernelKind kind, double width, Index dimension, int order = 2);
 
   /** The kernel at distance `r` ≥ 0; +infinity gives the limit (0 for the decreasing ones). */
   double operator()(double r) const;
 
+  /** In place, for `count` squared s (squared r for a kernel without a width): φ(s). */
+  void values(double* squared, Index count) const;
+
+  /** In place likewise: φ′(s)/s, so that the gradient with respect to x is this times (x − center)/width². 0 where that is
+   * infinite, at the center itself: there the gradient's limit is 0, or none exists. */
+  void slopes(double* squared, Index count) const;
+
+  /** Whether the width enters. */
+  bool has_width() const;
+
+  /** e of φ(cr) = c^e φ(r), up to polynomials that the tail takes up; 0 for a kernel with a width. */
+  int homogeneity() const;
+
   /** Lowest polynomial degree whose tail makes interpolation well posed (−1: none needed). */
   int minimum_degree() const;
+
+  /** 1 where the kernel, −1 where its negative is (conditionally) positive definite. */
+  double sign() const;
+
+  /** Largest dimension in which that is a theorem: 0 for none, 1000 for all. */
+  int definite_to_dimension() const;
+
+  /** Whether φ(0) = 0, so that a single kernel says nothing at its own place. */
+  bool vanishes_at_center() const;
 };
 
 }  // namespace handlebody

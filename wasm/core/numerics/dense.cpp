@@ -68,6 +68,18 @@ double safe_norm(const Vector& x) {
   return largest * std::sqrt(sum);
 }
 
+double safe_distance(const double* x, const double* y, Index dimension) {
+  double squared = 0;
+  for (Index i = 0; i < dimension; ++i) squared += (x[i] - y[i]) * (x[i] - y[i]);
+  if (squared > 1e-280 && squared < 1e280) return std::sqrt(squared);
+  double largest = 0;
+  for (Index i = 0; i < dimension; ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  if (!(largest > 0) || !std::isfinite(largest)) return largest;
+  squared = 0;
+  for (Index i = 0; i < dimension; ++i) squared += (x[i] - y[i]) / largest * ((x[i] - y[i]) / largest);
+  return largest * std::sqrt(squared);
+}
+
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   MatrixXd out = MatrixXd::Zero(a.rows(), b.cols());
   for (Index j = 0; j < b.cols(); ++j) add_columns(&out(0, j), a.rows(), a.data(), a.rows(), &b(0, j), 1, a.cols(), 1);
@@ -138,6 +150,16 @@ void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd
     add_columns(&b(0, j), rows, b.data() + rows * (j + 1), rows, factor.data() + n * j + j + 1, 1, n - 1 - j, -1);
   }
   for (Index j = n; j-- > 0;) b.col(j).swap(b.col(pivots[static_cast<std::size_t>(j)]));
+}
+
+void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, double* x) {
+  const Index n = factor.rows();
+  for (Index j = 0; j < n; ++j) std::swap(x[j], x[pivots[static_cast<std::size_t>(j)]]);
+  for (Index j = 0; j < n; ++j) add_columns(x + j + 1, n - 1 - j, factor.data() + n * j + j + 1, n, x + j, 1, 1, -1);
+  for (Index j = n; j-- > 0;) {
+    x[j] /= factor(j, j);
+    add_columns(x, j, factor.data() + n * j, n, x + j, 1, 1, -1);
+  }
 }
 
 }  // namespace handlebody

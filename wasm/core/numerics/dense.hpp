@@ -34,7 +34,13 @@ void factor_lu(MatrixXd& a, std::vector<Index>& pivots);
 /** b ← b a⁻¹ from a's factor: solves from the right. */
 void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd& b);
 
+/** x ← a⁻¹ x from a's factor, for one vector: solves from the left. */
+void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, double* x);
+
 /** ‖x‖ that neither overflows nor vanishes before it has to (Eigen's stableNorm() is 1.5 kB of code for every expression). */
 double safe_norm(const Vector& x);
+
+/** ‖x − y‖ likewise. Infinite where a coordinate's difference is. */
+double safe_distance(const double* x, const double* y, Index dimension);
 
 }  // namespace handlebody

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double coincident = 1e-9;  // of the diagonal
 constexpr double reach = 1000;       // diagonals
+constexpr double largest_cardinal_error = 1e-6;
 
 /** Width as a part of the distance to the nearest neighbor: see PoseSpaceOptions. */
 double automatic_width(KernelKind kind) {
@@ -52,6 +53,42 @@ Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
   return spacing;
 }
 
+/** What scattered interpolation calls points are examples here. */
+Error as_examples(const Error& error) {
+  const auto with = [&](hb_status code) {
+    return Error(code, {error.message.c_str()}, {error.remedy.c_str()},
+                 error.culprit == HB_CULPRIT_POINT ? HB_CULPRIT_EXAMPLE : error.culprit, error.index);
+  };
+  switch (error.code) {
+    case HB_ERROR_POINTS_TOO_FEW:
+      return with(HB_ERROR_EXAMPLES_TOO_FEW);
+    case HB_ERROR_POINTS_DEGENERATE:
+    case HB_ERROR_SYSTEM_SINGULAR:
+      return with(HB_ERROR_EXAMPLES_DEGENERATE);
+    default:
+      return with(error.code);
+  }
+}
+
+/** Equations that are singular in double precision still give some answer, so the promise itself is tested: 1 at the own place, 0
+ * at the others. */
+Result<Done> check_cardinal(Rbf& rbf, const Eigen::Ref<const Matrix>& places) {
+  Vector weights(places.rows()), place(places.cols());
+  for (Index i = 0; i < places.rows(); ++i) {
+    place = places.row(i).transpose();
+    rbf.weights(place.data(), weights.data());
+    weights[i] -= 1;
+    const double error = weights.lpNorm<Eigen::Infinity>();
+    if (!(error <= largest_cardinal_error))
+      return Error(HB_ERROR_EXAMPLES_DEGENERATE,
+                   {"The interpolation system is singular in double precision (condition number ", rbf.fit().condition(),
+                    "); it misses example ", i, " by ", error, "."},
+                   {"Use a smaller width, move examples apart that almost coincide, or choose another kernel."}, HB_CULPRIT_EXAMPLE,
+                   i);
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options) {
@@ -72,24 +109,28 @@ Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, cons
                  {"Use 0, or 1 for weights that reproduce linear functions; without a tail weights would not sum to 1."},
                  HB_CULPRIT_OPTION, -1);
 
-  RadialBasisOptions rbf;
-  rbf.kernel = {options.kernel, options.width > 0 ? options.width : 1};
-  rbf.degree = options.degree;
-  rbf.normalized = normalized;
+  RbfOptions rbf;
+  rbf.basis.kernel = {options.kernel, options.width > 0 ? options.width : 1};
+  rbf.basis.degree = options.degree;
+  rbf.basis.normalized = normalized;
   if (count == 1) {
     // The constant 1 is the only answer, and the only one that every kernel and degree would leave undetermined or refuse.
-    rbf = {{KernelKind::multiquadric, 1}, 0, false, {}};
+    rbf.basis.kernel = {KernelKind::multiquadric, 1};
+    rbf.basis.degree = 0;
+    rbf.basis.normalized = false;
   } else {
     auto spacing = spacing_of(places);
     if (!spacing) return spacing.error();
-    if (options.width == 0 && spacing->allFinite()) rbf.widths = automatic_width(options.kernel) * *spacing;
+    if (options.width == 0 && spacing->allFinite() && rbf.basis.kernel.has_width())
+      rbf.basis.widths = automatic_width(options.kernel) * *spacing;
   }
-  auto interpolant = RadialBasisInterpolant::create(places, rbf);
-  if (!interpolant) return interpolant.error();
+  auto interpolant = Rbf::create(places, Matrix::Zero(count, 1), rbf);
+  if (!interpolant) return as_examples(interpolant.error());
+  if (auto cardinal = check_cardinal(*interpolant, places); !cardinal) return cardinal.error();
   return PoseSpace(std::move(*interpolant), places);
 }
 
-PoseSpace::PoseSpace(RadialBasisInterpolant rbf, const Eigen::Ref<const Matrix>& places)
+PoseSpace::PoseSpace(Rbf rbf, const Eigen::Ref<const Matrix>& places)
     : rbf_(std::move(rbf)),
       center_(places.colwise().maxCoeff() / 2 + places.colwise().minCoeff() / 2),
       reach_(reach * std::max(diagonal_of(places), std::numeric_limits<double>::min())),
@@ -106,7 +147,7 @@ Result<Done> PoseSpace::weights(const Eigen::Ref<const Vector>& query, Eigen::Re
     query_ = center_ + query_ * (reach_ / half_distance);
   else
     query_ = query;
-  rbf_.weights(query_, out);
+  rbf_.weights(query_.data(), out.data());
   return Done{};
 }
 

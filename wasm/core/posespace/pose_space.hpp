@@ -55,7 +55,7 @@ class PoseSpace {
    *
    * Fails with EXAMPLES_TOO_FEW, EXAMPLE_NOT_FINITE, EXAMPLE_DUPLICATE (two places closer than 1e-9 of the bounding box's diagonal:
    * the later is the culprit, the message holds both numbers), EXAMPLES_DEGENERATE (degree 1 and places on a line or plane; or
-   * a singular system, see RadialBasisInterpolant) and INVALID_OPTION. */
+   * a singular system, see Rbf) and INVALID_OPTION. */
   static Result<PoseSpace> create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options = {});
 
   Index size() const { return rbf_.size(); }
@@ -67,9 +67,9 @@ class PoseSpace {
   Result<Done> weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out);
 
  private:
-  PoseSpace(RadialBasisInterpolant rbf, const Eigen::Ref<const Matrix>& places);
+  PoseSpace(Rbf rbf, const Eigen::Ref<const Matrix>& places);
 
-  RadialBasisInterpolant rbf_;
+  Rbf rbf_;
   Vector center_;     // d
   double reach_ = 0;  // 1000 diagonals
   Vector query_;      // d: scratch

@@ -1,0 +1,28 @@
+// What the benchmarks share: building the native side, running a side, and the middle of several rounds.
+import path from 'node:path';
+import { at } from '../../scripts/lib/paths.mjs';
+import { capture, mustRun } from '../../scripts/lib/run.mjs';
+
+/** @typedef {Record<string, number>} Times milliseconds by name */
+
+/** @param {string} name @param {string[]} options @param {string} [target] @returns {Promise<string>} The benchmark's program. */
+export async function buildNative(name, options, target = 'handlebody_bench') {
+  const folder = at('build', `bench-${name}`);
+  await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
+  await mustRun('cmake', ['--build', folder, '--parallel', '--target', target], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
+  return path.join(folder, target);
+}
+
+/** @param {string} program @param {string[]} args @param {NodeJS.ProcessEnv} [env] @returns {Times} */
+export function measure(program, args, env = process.env) {
+  const { status, stdout, stderr } = capture(program, args, { env });
+  if (status !== 0) throw new Error(`${path.basename(program)} failed: ${stderr}`);
+  return JSON.parse(stdout);
+}
+
+/** @param {number[]} values */
+export const median = (values) => values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)] ?? Number.NaN;

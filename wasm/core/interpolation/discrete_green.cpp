@@ -1,0 +1,256 @@
+#include "core/interpolation/discrete_green.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+namespace {
+
+constexpr Index largest_size = 1024;
+
+/** First differences of `rows`: between neighbors only, with zeros beyond both ends (`outer`), or around a circle. */
+Matrix differences(const Matrix& rows, bool outer, bool cyclic, bool backward) {
+  const Index given = rows.rows(),
+              count = cyclic  ? given
+                      : outer ? given + 1
+                              : given - 1,
+              shift = outer || (cyclic && backward) ? 1 : 0;
+  Matrix out = Matrix::Zero(count, rows.cols());
+  for (Index i = 0; i < count; ++i)
+    for (const Index sign : {1, -1}) {
+      Index from = i - shift + (sign > 0 ? 1 : 0);
+      if (cyclic) from = (from + given) % given;
+      if (from < 0 || from >= given) continue;
+      for (Index j = 0; j < rows.cols(); ++j) out(i, j) += static_cast<double>(sign) * rows(from, j);
+    }
+  return out;
+}
+
+/** D: each difference of the ones before. Dirichlet's and Neumann's alternate between D₁ and −D₁ᵀ, samples and gaps. */
+Matrix difference_matrix(Index size, int order, GridBoundary boundary) {
+  Matrix d = Matrix::Identity(size, size);
+  for (int step = 0; step < order; ++step) {
+    const bool even = step % 2 == 0;
+    const bool outer = boundary == GridBoundary::dirichlet ? even : boundary == GridBoundary::neumann && !even;
+    d = differences(d, outer, boundary == GridBoundary::periodic, !even);
+  }
+  return d;
+}
+
+/** Orthonormal columns 1, t, t² … of the centered grid. */
+Matrix null_space(Index size, Index columns) {
+  Matrix basis(size, columns);
+  const double count = static_cast<double>(size), mean_square = (count * count - 1) / 12;
+  for (Index i = 0; i < size; ++i) {
+    const double t = static_cast<double>(i) - (count - 1) / 2;
+    const double row[] = {1, t, t * t - mean_square};
+    for (Index a = 0; a < columns; ++a) basis(i, a) = row[a];
+  }
+  for (Index a = 0; a < columns; ++a) {
+    double squared = 0;
+    for (Index i = 0; i < size; ++i) squared += basis(i, a) * basis(i, a);
+    for (Index i = 0; i < size; ++i) basis(i, a) /= std::sqrt(squared);
+  }
+  return basis;
+}
+
+/** Free ends: the kernel of m = |i − j| less what of it lies in the null space, (I − N Nᵀ) K (I − N Nᵀ). */
+Matrix free_green(int order, const Matrix& basis) {
+  const Index size = basis.rows(), columns = basis.cols();
+  Matrix green(size, size);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < size; ++j) {
+      const auto m = static_cast<double>(std::abs(i - j));
+      green(i, j) = order == 1 ? -m / 2 : order == 2 ? m * (m * m - 1) / 12 : -m * (m * m - 1) * (m * m - 4) / 240;
+    }
+  // Both sides at once: K − N (KN − N NᵀKN/2)ᵀ − (KN − N NᵀKN/2) Nᵀ
+  Matrix image = Matrix::Zero(size, columns);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < size; ++j)
+      for (Index a = 0; a < columns; ++a) image(i, a) += green(i, j) * basis(j, a);
+  Matrix within = Matrix::Zero(columns, columns);
+  for (Index i = 0; i < size; ++i)
+    for (Index a = 0; a < columns; ++a)
+      for (Index b = 0; b < columns; ++b) within(a, b) += basis(i, a) * image(i, b) / 2;
+  for (Index i = 0; i < size; ++i)
+    for (Index a = 0; a < columns; ++a)
+      for (Index b = 0; b < columns; ++b) image(i, b) -= basis(i, a) * within(a, b);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < size; ++j)
+      for (Index a = 0; a < columns; ++a) green(i, j) -= basis(i, a) * image(j, a) + image(i, a) * basis(j, a);
+  return green;
+}
+
+void remove_mean(double* x, Index size) {
+  double sum = 0;
+  for (Index i = 0; i < size; ++i) sum += x[i];
+  for (Index i = 0; i < size; ++i) x[i] -= sum / static_cast<double>(size);
+}
+
+/** x ← (D₁ᵀD₁)⁻¹ x, or the generalized inverse: the slope falls by x from gap to gap, and the boundary says where it begins. */
+void integrate_twice(double* x, Index size, GridBoundary boundary) {
+  const bool dirichlet = boundary == GridBoundary::dirichlet;
+  if (!dirichlet) remove_mean(x, size);
+  double fallen = 0, sum = 0;
+  for (Index i = 0; i < size; ++i) sum += fallen += x[i];
+  double slope = 0;
+  if (dirichlet) slope = sum / static_cast<double>(size + 1);                       // back to 0 one beyond the end
+  if (boundary == GridBoundary::periodic) slope = sum / static_cast<double>(size);  // or to where it began
+  double f = dirichlet ? slope : 0;
+  for (Index i = 0; i < size; ++i) {
+    slope -= x[i];
+    x[i] = f;
+    f += slope;
+  }
+  if (!dirichlet) remove_mean(x, size);
+}
+
+Matrix green_matrix(int order, GridBoundary boundary, const Matrix& basis) {
+  if (boundary == GridBoundary::free) return free_green(order, basis);
+  const Index size = basis.rows();
+  Matrix green = Matrix::Identity(size, size);  // symmetric: rows are columns
+  for (Index j = 0; j < size; ++j)
+    for (int step = 0; step < order; ++step) integrate_twice(&green(j, 0), size, boundary);
+  return green;
+}
+
+}  // namespace
+
+Result<DiscreteGreen> DiscreteGreen::create(Index size, int order, GridBoundary boundary, const std::uint32_t* samples,
+                                            const double* values, Index count) {
+  if (order < 1 || order > 3)
+    return Error(HB_ERROR_INVALID_OPTION, {"The order ", order, " of the differences is not 1, 2 or 3."}, {"Use 1, 2 or 3."},
+                 HB_CULPRIT_OPTION);
+  if (size <= order || size > largest_size)
+    return Error(HB_ERROR_INVALID_OPTION, {"A grid of ", size, " samples is not supported with differences of order ", order, "."},
+                 {"Use ", order + 1, " to ", largest_size, " samples."}, HB_CULPRIT_OPTION);
+  const Index nullity = boundary == GridBoundary::free ? order : boundary == GridBoundary::dirichlet ? 0 : 1;
+  if (count < std::max<Index>(nullity, 1))
+    return Error(HB_ERROR_POINTS_TOO_FEW,
+                 {count, count == 1 ? " sample does" : " samples do", " not determine the part of the curve that D cannot see, of ",
+                  nullity, nullity == 1 ? " dimension." : " dimensions."},
+                 {"Give at least ", std::max<Index>(nullity, 1), nullity > 1 ? " samples." : "."});
+  std::vector<Index> given(static_cast<std::size_t>(size), -1);
+  for (Index k = 0; k < count; ++k) {
+    if (static_cast<Index>(samples[k]) >= size)
+      return Error(HB_ERROR_INVALID_OPTION, {"Sample ", k, " is at ", samples[k], ", outside the grid."},
+                   {"Use 0 to ", size - 1, "."}, HB_CULPRIT_POINT, k);
+    if (!std::isfinite(values[k]))
+      return Error(HB_ERROR_VALUE_NOT_FINITE, {"The value of sample ", k, " is ", values[k], "."},
+                   {"Remove NaN and infinite values."}, HB_CULPRIT_POINT, k);
+    Index& first = given[samples[k]];
+    if (first >= 0)
+      return Error(HB_ERROR_POINT_DUPLICATE, {"Sample ", k, " is at ", samples[k], ", as sample ", first, " is."},
+                   {"Give each place of the grid once."}, HB_CULPRIT_POINT, k);
+    first = k;
+  }
+
+  DiscreteGreen made;
+  made.samples_.assign(samples, samples + count);
+  made.values_.resize(count);
+  std::copy(values, values + count, made.values_.data());
+  made.difference_ = difference_matrix(size, order, boundary);
+  made.null_space_ = handlebody::null_space(size, nullity);
+  made.green_ = green_matrix(order, boundary, made.null_space_);
+  return made;
+}
+
+Matrix DiscreteGreen::squared() const {
+  Matrix out = Matrix::Zero(size(), size());
+  for (Index row = 0; row < difference_.rows(); ++row)
+    for (Index i = 0; i < size(); ++i) {
+      const double factor = difference_(row, i);
+      if (factor == 0) continue;
+      for (Index j = 0; j < size(); ++j) out(i, j) += factor * difference_(row, j);
+    }
+  return out;
+}
+
+void DiscreteGreen::solve_grid(double* f) const {
+  std::vector<Index> number(static_cast<std::size_t>(size()), 0), place;
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    number[static_cast<std::size_t>(samples_[k])] = -1;
+    f[samples_[k]] = values_[static_cast<Index>(k)];
+  }
+  for (Index i = 0; i < size(); ++i) {
+    if (number[static_cast<std::size_t>(i)] < 0) continue;
+    number[static_cast<std::size_t>(i)] = static_cast<Index>(place.size());
+    place.push_back(i);
+  }
+  const auto unknowns = static_cast<Index>(place.size());
+
+  // R and its right-hand side, in the last column, row by row of D: each is rotated into the rows before it, or becomes one.
+  Matrix r = Matrix::Zero(unknowns, unknowns + 1);
+  std::vector<Index> end(place.size(), 0);  // of each row of R: 0 where there is none yet
+  Vector row(unknowns + 1);
+  for (Index equation = 0; equation < difference_.rows(); ++equation) {
+    row.setZero();
+    Index first = unknowns, last = 0;
+    for (Index i = 0; i < size(); ++i) {
+      const Index j = number[static_cast<std::size_t>(i)];
+      const double factor = difference_(equation, i);
+      if (factor == 0) continue;
+      if (j < 0) {
+        row[unknowns] -= factor * f[i];
+        continue;
+      }
+      row[j] = factor;
+      first = std::min(first, j);
+      last = j + 1;
+    }
+    for (Index c = first; c < last; ++c) {
+      if (row[c] == 0) continue;
+      Index& reach = end[static_cast<std::size_t>(c)];
+      if (reach == 0) {
+        r.row(c) = row.transpose();
+        reach = last;
+        break;
+      }
+      last = reach = std::max(last, reach);
+      const double length = std::sqrt(r(c, c) * r(c, c) + row[c] * row[c]), cosine = r(c, c) / length, sine = row[c] / length;
+      const auto rotate = [&](Index j) {
+        const double upper = r(c, j), lower = row[j];
+        r(c, j) = cosine * upper + sine * lower;
+        row[j] = cosine * lower - sine * upper;
+      };
+      for (Index j = c; j < last; ++j) rotate(j);
+      rotate(unknowns);
+    }
+  }
+  for (Index c = unknowns; c-- > 0;) {
+    double rest = r(c, unknowns);
+    for (Index j = c + 1; j < end[static_cast<std::size_t>(c)]; ++j) rest -= r(c, j) * f[place[static_cast<std::size_t>(j)]];
+    f[place[static_cast<std::size_t>(c)]] = rest / r(c, c);
+  }
+}
+
+void DiscreteGreen::solve_radial(double* f, double* weights) const {
+  const Index count = values_.size(), columns = null_space_.cols();
+  // λ in units of 1/G and N of order 1, so that pivots compare.
+  double largest = 0;
+  for (Index i = 0; i < size(); ++i) largest = std::max(largest, green_(i, i));
+  const double scale = std::sqrt(static_cast<double>(size()));
+  const auto place = [&](Index k) { return samples_[static_cast<std::size_t>(k)]; };
+  MatrixXd system = MatrixXd::Zero(count + columns, count + columns);
+  Vector solution = Vector::Zero(count + columns);
+  for (Index k = 0; k < count; ++k) {
+    solution[k] = values_[k];
+    for (Index l = 0; l < count; ++l) system(k, l) = green_(place(k), place(l)) / largest;
+    for (Index a = 0; a < columns; ++a) system(k, count + a) = system(count + a, k) = null_space_(place(k), a) * scale;
+  }
+  std::vector<Index> pivots;
+  factor_lu(system, pivots);
+  solve_lu(system, pivots, solution.data());
+  for (Index k = 0; k < count + columns; ++k) solution[k] = k < count ? solution[k] / largest : solution[k] * scale;
+  if (weights) std::copy(solution.begin(), solution.end(), weights);
+  for (Index i = 0; i < size(); ++i) {
+    f[i] = 0;
+    for (Index k = 0; k < count; ++k) f[i] += green_(i, place(k)) * solution[k];
+    for (Index a = 0; a < columns; ++a) f[i] += null_space_(i, a) * solution[count + a];
+  }
+}
+
+}  // namespace handlebody

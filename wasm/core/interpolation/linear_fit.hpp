@@ -1,0 +1,48 @@
+// From values to the coefficients of a radial basis: linear in the values, factored once.
+#pragma once
+
+#include <memory>
+
+#include "core/interpolation/radial_basis.hpp"
+
+namespace handlebody {
+
+class LinearFit {
+ public:
+  virtual ~LinearFit() = default;
+
+  /** Coefficients (m×size(), one row an output) for `values` (n×m). O(n² m). */
+  virtual MatrixXd coefficients(const Matrix& values) const = 0;
+
+  /** 1-norm of the factored matrix, and an estimate of its 1-norm condition number (at most a factor of a few too small). */
+  double norm() const { return norm_; }
+  double condition() const { return condition_; }
+
+ protected:
+  double norm_ = 0, condition_ = 0;
+};
+
+/** Interpolation, or smoothing where `smoothing` λ > 0 (2014 course, §5.2; SciPy's `smoothing`):
+ *
+ *     [ R + λI  P ] [c]   [f]
+ *     [   Pᵀ    0 ] [d] = [0]
+ *
+ *  with a center at each of the `points`. The polynomial part is not penalized, so that polynomials are kept whatever λ: a smoothed
+ * thin plate becomes affine (Donato & Belongie 2002). λ takes the sign of the kernel, as if each were positive definite. R is
+ * indefinite in general, so LU and not Cholesky. */
+std::unique_ptr<LinearFit> fit_interpolant(RadialBasis& basis, const Matrix& points, double smoothing);
+
+/** Least squares with as many centers as there are, or fewer, each point's misfit counting `row_weights` (n, or empty for 1), and
+ * with weight decay λ (2014 course, eq. (3), (RᵀR + λI)⁻¹Rᵀd where there is no tail):
+ *
+ *     min ‖R c + P d − f‖² + λ‖c‖²,   P(centers)ᵀ c = 0
+ *
+ *  by QR of the stacked matrix, not by these normal equations, which square the condition number. The side conditions are met by
+ *  writing c in a basis of their null space. */
+std::unique_ptr<LinearFit> fit_least_squares(RadialBasis& basis, const Matrix& points, const Matrix& centers, double weight_decay,
+                                             const Vector& row_weights);
+
+/** The least-squares problem's matrix without weights: n × (number of free coefficients). For robust fits. */
+MatrixXd design_matrix(RadialBasis& basis, const Matrix& points, const Matrix& centers);
+
+}  // namespace handlebody

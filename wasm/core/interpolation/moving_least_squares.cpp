@@ -1,0 +1,251 @@
+#include "core/interpolation/moving_least_squares.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/interpolation/polynomial.hpp"
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+namespace {
+
+constexpr double huge = 1e150;            // stands for infinity: quotients and products with weights stay numbers
+constexpr double least_root = 1e-200;     // √w below this part of the largest counts as none
+constexpr double largest_exponent = 250;  // of a singular √w over the second nearest point's: e²⁵⁰ is as good as infinite
+constexpr double margin = 0.8;            // where the farthest point that widening reaches for lies, in h
+
+double in_range(double length) {
+  return std::min(std::max(length, 1 / huge), huge);
+}
+
+Result<Done> check_options(const MovingLeastSquaresOptions& options) {
+  const auto wrong = [](std::initializer_list<Word> message, std::initializer_list<Word> remedy) {
+    return Error(HB_ERROR_INVALID_OPTION, message, remedy, HB_CULPRIT_OPTION);
+  };
+  if (options.degree < 0 || options.degree > 2)
+    return wrong({"The degree ", options.degree, " is not 0, 1 or 2."}, {"Use 0, 1 or 2."});
+  if (!(options.power > 0) || !std::isfinite(options.power))
+    return wrong({"The power ", options.power, " is not a positive finite number."}, {"Use 4, or 2 for broader weights."});
+  if (!(options.epsilon >= 0) || !std::isfinite(options.epsilon))
+    return wrong({"Epsilon is ", options.epsilon, ", which is not zero or a positive finite number."},
+                 {"Use 0 to interpolate, or a small part of the points' spacing."});
+  if (!(options.width >= 0) || !std::isfinite(options.width))
+    return wrong({"The width ", options.width, " is not a positive finite number."},
+                 {"Give it in units of the points: a few times their spacing."});
+  return Done{};
+}
+
+}  // namespace
+
+Result<MovingLeastSquares> MovingLeastSquares::create(const Eigen::Ref<const Matrix>& points,
+                                                      const Eigen::Ref<const Matrix>& values,
+                                                      const MovingLeastSquaresOptions& options) {
+  if (auto checked = check_options(options); !checked) return checked.error();
+  const bool singular = options.weight == MovingWeight::inverse_distance && options.epsilon == 0;
+  auto data = check_data(points, values, singular ? Coincident::merge : Coincident::keep);
+  if (!data) return data.error();
+  const Index count = polynomial_count(options.degree, points.cols());
+  if (static_cast<double>(data->points.rows()) * static_cast<double>(count) > 1 << 26)
+    return Error(HB_ERROR_OUT_OF_MEMORY, {data->points.rows(), " points and ", count, " polynomials take more than 512 MiB."},
+                 {"Use a lower degree or fewer points."});
+  Matrix inner = data->points;
+  for (Index i = 0; i < inner.rows(); ++i)
+    for (Index axis = 0; axis < inner.cols(); ++axis)
+      inner(i, axis) = (inner(i, axis) - data->points(0, axis)) / (data->diagonal > 0 ? data->diagonal : 1);
+  if (auto unisolvent = check_unisolvent(inner, options.degree); !unisolvent) return unisolvent.error();
+  return MovingLeastSquares(std::move(*data), options);
+}
+
+MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSquaresOptions& options)
+    : Interpolant(std::move(data)),
+      options_(options),
+      unit_(data_.diagonal > 0 ? data_.diagonal : 1),
+      width_(options.width),
+      epsilon_(options.epsilon > 0 ? in_range(options.epsilon / unit_) : 0),
+      qr_(data_.points.rows(), polynomial_count(options.degree, data_.points.cols())) {
+  const Index n = data_.points.rows(), d = dimension(), count = polynomial_count(options.degree, d);
+  if (width_ == 0 && options.weight != MovingWeight::inverse_distance) {
+    double sum = 0;
+    Index apart = 0;
+    for (const double distance : nearest_distances(data_.points)) {
+      if (!(distance > 0 && std::isfinite(distance))) continue;
+      sum += distance / unit_;
+      ++apart;
+    }
+    width_ = (apart > 0 ? sum / static_cast<double>(apart) : 1) * (2 + options.degree) * unit_;
+    if (options.weight == MovingWeight::wendland) width_ *= 2;
+  }
+  distances_.resize(n);
+  rows_.resize(static_cast<std::size_t>(n));
+  nearest_.resize(static_cast<std::size_t>(n));
+  roots_.resize(n);
+  solution_.resize(n);
+  offset_.resize(d);
+  difference_.resize(d);
+  direction_.resize(d);
+  monomials_.resize(count);
+  right_.resize(count);
+  gradients_.resize(count, d);
+  moments_.resize(count, d);
+}
+
+double MovingLeastSquares::width() const {
+  return options_.weight == MovingWeight::inverse_distance ? 0 : width_;
+}
+
+void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
+  const Index n = data_.points.rows(), d = dimension();
+  const bool inverse = options_.weight == MovingWeight::inverse_distance;
+  std::fill(w, w + n, 0.0);
+  if (slopes) std::fill(slopes, slopes + n * d, 0.0);
+  find_distances(query);
+  const bool at_point = !set_direction(query, own_), singular = inverse && epsilon_ == 0 && at_point;
+  if (slopes && inverse && at_point && data_.diagonal > 0 && (options_.power <= 1 || epsilon_ > 0)) {
+    std::fill(slopes, slopes + n * d, std::numeric_limits<double>::quiet_NaN());
+    slopes = nullptr;
+  }
+  if (singular) w[own_] = 1;
+  if (singular && !slopes) return;
+
+  // √W P with the origin at the nearest point, whose row is then (√w, 0, 0 …) and cannot drown the others however large it is.
+  reach_ = in_range(width_ / unit_);
+  farthest_ = -1;
+  if (options_.weight == MovingWeight::wendland) widen();
+  Index rows = 0;
+  for (Index k = 0; k < n; ++k) {
+    const double root = root_weight(distances_[k]);
+    if (!(root > least_root)) continue;
+    roots_[rows] = root;
+    rows_[static_cast<std::size_t>(rows++)] = static_cast<std::uint32_t>(k);
+  }
+  qr_.reset(rows);
+  for (Index row = 0; row < rows; ++row) {
+    set_monomials(rows_[static_cast<std::size_t>(row)]);
+    qr_.scale(row) = roots_[row];
+    for (Index j = 0; j < monomials_.size(); ++j) qr_(row, j) = roots_[row] * monomials_[j];
+  }
+  int degree = -1;
+  while (degree < options_.degree && qr_.extend(polynomial_count(degree + 1, d))) ++degree;
+
+  // f(x) = p(x)ᵀa with a = (√W P)⁺ √W f, so ψ = √W (√W P)⁺ᵀ p(x).
+  for (Index axis = 0; axis < d; ++axis) offset_[axis] = (query[axis] - data_.points(own_, axis)) / unit_;
+  if (!singular) {
+    polynomial_values(offset_.data(), d, degree, monomials_.data());
+    qr_.solve_transposed(monomials_.data(), solution_.data());
+    for (Index row = 0; row < rows; ++row) w[rows_[static_cast<std::size_t>(row)]] = roots_[row] * solution_[row];
+  }
+  if (slopes) set_slopes(query, degree, w, slopes);
+}
+
+/** The weights' gradients. With Ψ = (√W P)⁺ √W, so that a = Ψf and ψ = Ψᵀp(x), and gᵢ = ψᵢ ∇ln wᵢ, the formula of the header reads
+ *
+ *   ∇ψₖ = gₖ + Ψₖᵀ (∇p(x) − Σᵢ gᵢ p(xᵢ)).
+ *
+ * Near a point its own g is as steep as p/r and all but cancels, so its slope is taken from Σₖ∇ψₖ = 0. */
+void MovingLeastSquares::set_slopes(const double* query, int degree, const double* w, double* slopes) {
+  const Index d = dimension(), count = qr_.rank();
+  polynomial_gradients(offset_.data(), d, degree, gradients_.data());
+  // ∇h, where h follows a point, its distance over the margin.
+  if (farthest_ < 0 || !set_direction(query, farthest_)) direction_.setZero();
+  offset_ = direction_ / margin;
+  moments_.setZero();
+  const auto rows = static_cast<std::size_t>(qr_.rows());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const Index k = rows_[row];
+    if (!set_direction(query, k)) direction_.setZero();
+    set_monomials(k);
+    const double steep = w[k] * steepness(distances_[k]), s = distances_[k] / reach_;
+    for (Index axis = 0; axis < d; ++axis) {
+      const double g = steep * (direction_[axis] - s * offset_[axis]);
+      slopes[k * d + axis] = g;
+      for (Index j = 0; j < count; ++j) moments_(j, axis) += g * monomials_[j];
+    }
+  }
+  for (Index axis = 0; axis < d; ++axis) {
+    for (Index j = 0; j < count; ++j) right_[j] = gradients_(j, axis) - moments_(j, axis);
+    qr_.solve_transposed(right_.data(), solution_.data());
+    double others = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      double& slope = slopes[rows_[row] * d + axis];
+      slope = (slope + roots_[static_cast<Index>(row)] * solution_[static_cast<Index>(row)]) / unit_;
+      if (static_cast<Index>(rows_[row]) != own_) others += slope;
+    }
+    slopes[own_ * d + axis] = -others;
+  }
+}
+
+void MovingLeastSquares::find_distances(const double* query) {
+  const Index n = data_.points.rows();
+  own_ = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  second_ = nearest;
+  for (Index k = 0; k < n; ++k) {
+    const double r = std::min(safe_distance(query, &data_.points(k, 0), dimension()) / unit_, huge);
+    distances_[k] = r;
+    if (r < nearest) {
+      second_ = nearest;
+      nearest = r;
+      own_ = k;
+    } else {
+      second_ = std::min(second_, r);
+    }
+  }
+  if (n == 1) second_ = in_range(nearest);
+}
+
+/** Compact support: h grows where too few points are well inside. */
+void MovingLeastSquares::widen() {
+  const std::size_t wanted = std::min(nearest_.size(), 2 * static_cast<std::size_t>(monomials_.size()));
+  std::size_t inside = 0;
+  for (const double r : distances_) inside += r <= margin * reach_;
+  if (inside >= wanted) return;
+  const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
+    return distances_[a] != distances_[b] ? distances_[a] < distances_[b] : a < b;
+  };
+  std::iota(nearest_.begin(), nearest_.end(), 0u);
+  std::uint32_t* const last = nearest_.data() + wanted - 1;
+  split(nearest_.data(), last, nearest_.data() + nearest_.size(), nearer);
+  farthest_ = *last;
+  reach_ = distances_[farthest_] / margin;
+}
+
+/** √w, of the largest or second largest: singular weights are relative to the second nearest point. */
+double MovingLeastSquares::root_weight(double r) const {
+  if (options_.weight == MovingWeight::inverse_distance)
+    return std::exp(std::min(options_.power / 2 * std::log((second_ + epsilon_) / (r + epsilon_)), largest_exponent));
+  if (options_.weight == MovingWeight::gaussian) {
+    const double nearest = distances_[own_];
+    return std::exp(-(r - nearest) / reach_ * ((r + nearest) / reach_) / 2);
+  }
+  const double s = r / reach_;
+  return s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
+}
+
+/** d ln w / dr */
+double MovingLeastSquares::steepness(double r) const {
+  if (options_.weight == MovingWeight::inverse_distance) return -std::min(options_.power / (r + epsilon_), huge);
+  if (options_.weight == MovingWeight::gaussian) return -std::min(2 * r / reach_ / reach_, huge);
+  const double s = r / reach_;
+  return -20 * s / ((1 - s) * (4 * s + 1)) / reach_;
+}
+
+/** p(xₖ), with the origin at the nearest point. */
+void MovingLeastSquares::set_monomials(Index point) {
+  for (Index axis = 0; axis < dimension(); ++axis)
+    difference_[axis] = (data_.points(point, axis) - data_.points(own_, axis)) / unit_;
+  polynomial_values(difference_.data(), dimension(), options_.degree, monomials_.data());
+}
+
+/** The unit vector from a point to the query, 0 from infinitely far; false where the query is the point. */
+bool MovingLeastSquares::set_direction(const double* query, Index point) {
+  const double* x = &data_.points(point, 0);
+  const double r = safe_distance(query, x, dimension());
+  if (!(r > 0)) return false;
+  for (Index axis = 0; axis < dimension(); ++axis) direction_[axis] = std::isfinite(r) ? (query[axis] - x[axis]) / r : 0;
+  return true;
+}
+
+}  // namespace handlebody

@@ -1,0 +1,118 @@
+#include "core/interpolation/polynomial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace handlebody {
+namespace {
+
+// Columns count as dependent when what is left of them falls below this part of the longest.
+constexpr double rank_tolerance = 1e-10;
+
+/** The columns from `first` on become unit vectors, perpendicular to each other and to all before, which are so already:
+ * Gram–Schmidt with column pivoting. Returns how many there are; the columns after those are rubbish. */
+Index orthonormalize(MatrixXd& columns, Index first) {
+  const Index rows = columns.rows(), count = columns.cols();
+  const auto longest = [&](Index from, Index& pivot) {
+    double most = 0;
+    for (Index j = from; j < count; ++j) {
+      double squared = 0;
+      for (Index i = 0; i < rows; ++i) squared += columns(i, j) * columns(i, j);
+      if (squared > most) most = squared, pivot = j;
+    }
+    return std::sqrt(most);
+  };
+  const auto remove = [&](Index direction, Index from) {
+    for (Index j = from; j < count; ++j) {
+      double along = 0;
+      for (Index i = 0; i < rows; ++i) along += columns(i, direction) * columns(i, j);
+      for (Index i = 0; i < rows; ++i) columns(i, j) -= along * columns(i, direction);
+    }
+  };
+  Index pivot = first;
+  const double largest = longest(first, pivot);
+  for (int twice = 0; twice < 2; ++twice)  // the second pass removes what rounding left of the first
+    for (Index k = 0; k < first; ++k) remove(k, first);
+  for (Index k = first; k < count; ++k) {
+    const double norm = longest(k, pivot);
+    if (!(norm > rank_tolerance * largest)) return k - first;
+    for (Index i = 0; i < rows; ++i) {
+      std::swap(columns(i, k), columns(i, pivot));
+      columns(i, k) /= norm;
+    }
+    for (int twice = 0; twice < 2; ++twice) remove(k, k + 1);
+  }
+  return count - first;
+}
+
+const char* plural(Index count) {
+  return count == 1 ? "" : "s";
+}
+
+}  // namespace
+
+Index polynomial_count(int degree, Index dimension) {
+  return degree < 0 ? 0 : degree == 0 ? 1 : degree == 1 ? 1 + dimension : 1 + dimension + dimension * (dimension + 1) / 2;
+}
+
+void polynomial_values(const double* x, Index dimension, int degree, double* out) {
+  if (degree >= 0) *out++ = 1;
+  if (degree >= 1) out = std::copy(x, x + dimension, out);
+  if (degree >= 2)
+    for (Index i = 0; i < dimension; ++i)
+      for (Index j = i; j < dimension; ++j) *out++ = x[i] * x[j];
+}
+
+void polynomial_gradients(const double* x, Index dimension, int degree, double* out) {
+  std::fill(out, out + polynomial_count(degree, dimension) * dimension, 0.0);
+  if (degree >= 0) out += dimension;
+  if (degree >= 1)
+    for (Index i = 0; i < dimension; ++i, out += dimension) out[i] = 1;
+  if (degree >= 2)
+    for (Index i = 0; i < dimension; ++i)
+      for (Index j = i; j < dimension; ++j, out += dimension) out[i] += x[j], out[j] += x[i];
+}
+
+Result<Done> check_unisolvent(const Matrix& points, int degree) {
+  const Index count = points.rows(), d = points.cols(), needed = polynomial_count(degree, d);
+  const char* const kind = degree == 0 ? "constant" : degree == 1 ? "linear function" : "quadratic function";
+  if (count < needed)
+    return Error(HB_ERROR_POINTS_TOO_FEW,
+                 {count, " point", plural(count), count == 1 ? " does" : " do", " not determine a ", kind, " of ", d, " dimension",
+                  plural(d), "."},
+                 {"Add points until there are ", needed, degree > 0 ? ", or lower the degree." : "."});
+  if (degree < 1) return Done{};
+
+  // In orthonormal coordinates, which decide the same question for a set of any proportions.
+  MatrixXd columns(count, 1 + d);
+  columns.col(0).setConstant(1 / std::sqrt(static_cast<double>(count)));
+  columns.rightCols(d) = points;
+  const Index spanned = orthonormalize(columns, 1);
+  if (spanned < d)
+    return Error(HB_ERROR_POINTS_DEGENERATE,
+                 {"The points span ", spanned,
+                  spanned == 0   ? " dimensions (they coincide)"
+                  : spanned == 1 ? " dimension only (they lie on one line)"
+                  : spanned == 2 ? " dimensions only (they lie on one plane)"
+                                 : " dimensions only",
+                  ", which does not determine a ", kind, " of ", d, " dimension", plural(d), "."},
+                 {"Use degree 0, add a point outside, or drop a dimension."});
+  if (degree < 2) return Done{};
+
+  columns.conservativeResize(Eigen::NoChange, needed);
+  for (Index i = 1, column = 1 + d; i <= d; ++i)
+    for (Index j = i; j <= d; ++j, ++column)
+      for (Index row = 0; row < count; ++row) columns(row, column) = columns(row, i) * columns(row, j);
+  const Index quadratic = 1 + d + orthonormalize(columns, 1 + d);
+  if (quadratic == needed) return Done{};
+  return Error(HB_ERROR_POINTS_DEGENERATE,
+               {"The points determine only ", quadratic, " of the ", needed, " coefficients of a quadratic function of ", d,
+                " dimension", plural(d),
+                d == 1   ? ": they are at two places."
+                : d == 2 ? ": they lie on one conic."
+                         : ": they lie on one quadric."},
+               {"Use degree 1, or add a point elsewhere."});
+}
+
+}  // namespace handlebody

@@ -1,0 +1,314 @@
+#include "core/interpolation/radial_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/interpolation/polynomial.hpp"
+#include "core/kernels/clamped_plate.hpp"
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+namespace {
+
+Error option_error(std::initializer_list<Word> message, std::initializer_list<Word> remedy) {
+  return {HB_ERROR_INVALID_OPTION, message, remedy, HB_CULPRIT_OPTION};
+}
+
+Result<Done> check_options(const RadialBasisOptions& options, Index dimension, Index centers) {
+  const Kernel& kernel = options.kernel;
+  if (options.degree < -1 || options.degree > 2)
+    return option_error({"The degree of the polynomial tail is not -1, 0, 1 or 2."}, {"Use -1, 0, 1 or 2."});
+  const bool has_order = kernel.kind == KernelKind::polyharmonic || kernel.kind == KernelKind::clamped_plate;
+  if (has_order && (options.order > 8 || 2 * options.order <= dimension))
+    return option_error({"Order ", options.order, " is not possible in ", dimension, " dimensions."},
+                        {"The order of this kernel is more than half the dimension, and 8 at most: use ", dimension / 2 + 1, "."});
+  const int needed = kernel.minimum_degree();
+  if (needed > 2)
+    return option_error({"This kernel needs a polynomial tail of degree ", needed, ", and 2 is the most there is."},
+                        {"Use a lower order."});
+  if (options.normalized && (kernel.vanishes_at_center() || kernel.kind == KernelKind::clamped_plate))
+    return option_error({"This kernel is zero at its own place or on a sphere and cannot be normalized."},
+                        {"Use gaussian, multiquadric, inverse multiquadric or inverse quadratic, or do not normalize."});
+  if (!options.normalized && options.degree < needed)
+    return option_error({"This kernel needs a polynomial tail of degree ", needed, " or more; it has degree ", options.degree, "."},
+                        {"Raise the degree to ", needed, "."});
+  if (options.widths.size() != 0 && options.widths.size() != centers)
+    return option_error({"There are ", options.widths.size(), " widths for ", centers, " centers."},
+                        {"Give one width a center, or a single one."});
+  if (options.widths.size() != 0 && kernel.kind == KernelKind::clamped_plate)
+    return option_error({"The clamped plate has one ball for all centers."}, {"Give a single width: the ball's radius."});
+  const auto valid = [](double width) { return width > 0 && std::isfinite(width); };
+  if (options.widths.size() == 0 && !valid(kernel.width))
+    return option_error({"The width is ", kernel.width, ", not a positive finite number."}, {"Give it in units of the points."});
+  for (Index i = 0; i < options.widths.size(); ++i)
+    if (!valid(options.widths[i]))
+      return Error(HB_ERROR_INVALID_OPTION,
+                   {"The width of center ", i, " is ", options.widths[i], ", not a positive finite number."},
+                   {"Give widths in units of the points."}, HB_CULPRIT_CENTER, i);
+  return Done{};
+}
+
+}  // namespace
+
+Result<RadialBasis> RadialBasis::create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options) {
+  const Index dimension = points.cols(), k = centers.rows();
+  if (auto valid = check_options(options, dimension, k); !valid) return valid.error();
+  RadialBasis basis;
+  basis.kernel_ = options.kernel;
+  basis.kernel_.exponent = Kernel::of(options.kernel.kind, 1, dimension, options.order).exponent;
+  basis.order_ = options.order;
+  basis.degree_ = options.degree;
+  basis.normalized_ = options.normalized;
+  basis.tail_ = polynomial_count(options.degree, dimension);
+  if (auto framed = basis.set_frame(points, options.metric); !framed) return framed.error();
+  basis.inner_.resize(dimension);
+  basis.centers_ = basis.to_inner(centers);
+  basis.amplitudes_ = Vector::Ones(k);
+  if (auto sized = basis.set_widths(options); !sized) return sized.error();
+  if (options.kernel.kind == KernelKind::clamped_plate)
+    if (auto inside = basis.set_ball(centers); !inside) return inside.error();
+  if (auto unisolvent = check_unisolvent(basis.to_inner(points), options.degree); !unisolvent) return unisolvent.error();
+  basis.squared_.resize(k);
+  basis.slopes_.resize(k);
+  basis.row_.resize(basis.size());
+  basis.polynomials_.resize(dimension, basis.tail_);
+  basis.block_inner_.resize(block, dimension);
+  basis.block_sums_.resize(block, largest_block_outputs);
+  return basis;
+}
+
+Result<Done> RadialBasis::set_frame(const Matrix& points, const MatrixXd& metric) {
+  const Index d = points.cols();
+  center_ = points.colwise().maxCoeff() / 2 + points.colwise().minCoeff() / 2;
+  if (metric.size() != 0) {
+    MatrixXd factor = metric;
+    bool valid = metric.rows() == d && metric.cols() == d && factor_cholesky(factor);
+    for (Index i = 0; valid && i < d; ++i)
+      for (Index j = 0; j < i; ++j)
+        valid = valid && std::abs(metric(i, j) - metric(j, i)) <= 1e-12 * std::abs(metric(i, i) + metric(j, j));
+    if (!valid)
+      return option_error({"The metric is not a symmetric, positive definite ", d, "×", d, " matrix."},
+                          {"Give the inverse of a covariance matrix, or leave it out for Euclidean distances."});
+    linear_.setZero(d, d);
+    for (Index i = 0; i < d; ++i)
+      for (Index j = 0; j <= i; ++j) linear_(j, i) = factor(i, j);
+  }
+  Vector lower = Vector::Constant(d, std::numeric_limits<double>::infinity()), upper = -lower, inner(d);
+  for (Index i = 0; i < points.rows(); ++i) {
+    to_inner(&points(i, 0), inner.data());
+    lower = lower.cwiseMin(inner);
+    upper = upper.cwiseMax(inner);
+  }
+  const double diagonal = safe_norm(upper - lower);
+  scale_ = diagonal > 0 ? 1 / diagonal : 1;
+  return Done{};
+}
+
+Result<Done> RadialBasis::set_widths(const RadialBasisOptions& options) {
+  const Index k = centers();
+  own_widths_ = options.widths.size() != 0;
+  widths_ = own_widths_ ? options.widths : Vector::Constant(k, options.kernel.width);
+  widths_ *= scale_;
+  inverse_squares_ = Vector::Ones(k);
+  amplitude_of_scale_ = 1;
+  for (int e = kernel_.homogeneity(); e > 0; --e) amplitude_of_scale_ *= scale_;
+  if (kernel_.kind == KernelKind::tension) {
+    auto inner = kernel_.tension.scaled(scale_);
+    if (inner) {
+      amplitude_of_scale_ = 1 / std::max(std::abs(inner->value(0)), std::abs(inner->value(0.5)));
+      inner = kernel_.tension.scaled(scale_, amplitude_of_scale_);
+    }
+    if (!inner) return inner.error();
+    kernel_.tension = *inner;
+  }
+  if (!kernel_.has_width()) return Done{};
+  if (!(widths_.minCoeff() >= 1e-30 && widths_.maxCoeff() <= 1e30))
+    return option_error({"A width is out of all proportion to the extent of the points."}, {"Give widths in units of the points."});
+  for (Index i = 0; i < k; ++i) inverse_squares_[i] = 1 / (widths_[i] * widths_[i]);
+  if (own_widths_ && kernel_.kind == KernelKind::multiquadric) amplitudes_ = widths_ / widths_.maxCoeff();
+  return Done{};
+}
+
+/** The ball of the clamped plate has the points' box in its middle and the width for its radius. */
+Result<Done> RadialBasis::set_ball(const Matrix& points) {
+  plate_margins_.resize(centers());
+  for (Index i = 0; i < centers(); ++i) {
+    inner_ = centers_.row(i).transpose();
+    plate_margins_[i] = plate_margin(inner_.data());
+    if (!(plate_margins_[i] > 0))
+      return Error(HB_ERROR_INVALID_OPTION,
+                   {"Point ", i, " is not inside the clamped plate's ball, whose radius is the width ", kernel_.width, "."},
+                   {"Use a larger width: the ball is centered on the box of the ", points.rows(), " points."}, HB_CULPRIT_POINT, i);
+  }
+  return Done{};
+}
+
+Vector RadialBasis::widths() const {
+  return widths_ / scale_;
+}
+
+void RadialBasis::to_inner(const double* query, double* inner) const {
+  const Index d = dimension();
+  const double* center = center_.data();
+  if (linear_.size() == 0) {
+    for (Index axis = 0; axis < d; ++axis) inner[axis] = scale_ * (query[axis] - center[axis]);
+    return;
+  }
+  const double* linear = linear_.data();
+  for (Index row = 0; row < d; ++row) {
+    inner[row] = 0;
+    for (Index axis = row; axis < d; ++axis) inner[row] += scale_ * linear[axis * d + row] * (query[axis] - center[axis]);
+  }
+}
+
+Matrix RadialBasis::to_inner(const Matrix& points) const {
+  Matrix inner(points.rows(), points.cols());
+  for (Index i = 0; i < points.rows(); ++i) to_inner(&points(i, 0), &inner(i, 0));
+  return inner;
+}
+
+double RadialBasis::plate_margin(const double* inner) const {
+  double squared = 0;
+  for (Index axis = 0; axis < dimension(); ++axis) squared += inner[axis] * inner[axis];
+  return 1 - squared * inverse_squares_[0];
+}
+
+/** s² from inner_ to every center. */
+void RadialBasis::squared_distances() {
+  const Index k = centers();
+  double* __restrict out = squared_.data();
+  std::fill(out, out + k, 0.0);
+  for (Index axis = 0; axis < dimension(); ++axis) {
+    const double* __restrict c = centers_.data() + axis * k;
+    const double x = inner_.data()[axis];
+    for (Index i = 0; i < k; ++i) out[i] += (x - c[i]) * (x - c[i]);
+  }
+  const double* __restrict inverse = inverse_squares_.data();
+  for (Index i = 0; i < k; ++i) out[i] *= inverse[i];
+}
+
+void RadialBasis::values(const double* query, double* out) {
+  const Index k = centers();
+  to_inner(query, inner_.data());
+  squared_distances();
+  if (kernel_.kind == KernelKind::clamped_plate) {
+    const ClampedPlate plate{order_, dimension()};
+    const double margin = plate_margin(inner_.data());
+    for (Index i = 0; i < k; ++i) out[i] = margin > 0 ? plate.value(squared_[i], margin * plate_margins_[i]) : 0;
+  } else {
+    // Far from all centers every Gaussian underflows and 0/0 would follow; the smallest exponent cancels in the quotient.
+    if (normalized_ && kernel_.kind == KernelKind::gaussian) squared_.array() -= squared_.minCoeff();
+    kernel_.values(squared_.data(), k);
+    const double *amplitudes = amplitudes_.data(), *radial = squared_.data();
+    for (Index i = 0; i < k; ++i) out[i] = amplitudes[i] * radial[i];
+  }
+  if (normalized_) {
+    double sum = 0;
+    for (Index i = 0; i < k; ++i) sum += out[i];
+    for (Index i = 0; i < k; ++i) out[i] = sum != 0 ? out[i] / sum : 0;  // beyond the reach of compact kernels there is nothing
+  }
+  polynomial_values(inner_.data(), dimension(), degree_, out + k);
+}
+
+void RadialBasis::gradients(const double* query, double* out) {
+  const Index k = centers(), d = dimension(), n = size();
+  values(query, row_.data());  // inner_ too
+  squared_distances();
+  if (kernel_.kind == KernelKind::clamped_plate) {
+    const ClampedPlate plate{order_, d};
+    const double margin = plate_margin(inner_.data());
+    for (Index i = 0; i < k; ++i) {
+      const bool inside = margin > 0;
+      const double b = margin * plate_margins_[i];
+      const double slope = inside ? 2 * plate.slope(squared_[i], b) : 0;
+      const double boundary = inside ? -2 * plate_margins_[i] * plate.boundary_slope(squared_[i], b) : 0;
+      for (Index axis = 0; axis < d; ++axis)
+        out[axis * n + i] = inverse_squares_[0] * (slope * (inner_[axis] - centers_(i, axis)) + boundary * inner_[axis]);
+    }
+  } else {
+    if (normalized_ && kernel_.kind == KernelKind::gaussian) {
+      slopes_.array() = -2.0 * (squared_.minCoeff() - squared_.array()).exp();
+    } else {
+      slopes_ = squared_;
+      kernel_.slopes(slopes_.data(), k);
+    }
+    for (Index i = 0; i < k; ++i) slopes_[i] *= amplitudes_[i] * inverse_squares_[i];
+    for (Index axis = 0; axis < d; ++axis)
+      for (Index i = 0; i < k; ++i) out[axis * n + i] = slopes_[i] * (inner_[axis] - centers_(i, axis));
+  }
+  if (normalized_) {  // ∇(φᵢ/Σ) = (∇φᵢ − φᵢ/Σ · Σ∇φ)/Σ; the sum is that of the kernels as they were before
+    Vector& raw = squared_;
+    if (kernel_.kind == KernelKind::gaussian) raw.array() -= raw.minCoeff();
+    kernel_.values(raw.data(), k);
+    double sum = 0;
+    for (Index i = 0; i < k; ++i) sum += amplitudes_[i] * raw[i];
+    for (Index axis = 0; axis < d; ++axis) {
+      double total = 0;
+      for (Index i = 0; i < k; ++i) total += out[axis * n + i];
+      for (Index i = 0; i < k; ++i) out[axis * n + i] = sum != 0 ? (out[axis * n + i] - row_[i] * total) / sum : 0;
+    }
+  }
+  polynomial_gradients(inner_.data(), d, degree_, polynomials_.data());
+  for (Index j = 0; j < tail_; ++j)
+    for (Index axis = 0; axis < d; ++axis) out[axis * n + k + j] = polynomials_(axis, j);
+  // Back to the caller's axes: y = scale · Lᵀ(x − center), so ∇ₓ = scale · L ∇ᵧ.
+  for (Index i = 0; i < n; ++i) {
+    for (Index axis = 0; axis < d; ++axis) {
+      double sum = 0;
+      if (linear_.size() == 0) {
+        sum = out[axis * n + i];
+      } else {
+        for (Index row = 0; row <= axis; ++row) sum += linear_(row, axis) * out[row * n + i];
+      }
+      inner_[axis] = scale_ * sum;
+    }
+    for (Index axis = 0; axis < d; ++axis) out[axis * n + i] = inner_[axis];
+  }
+}
+
+void RadialBasis::combine(const MatrixXd& coefficients, const double* queries, Index count, double* out) {
+  const Index k = centers(), d = dimension(), m = coefficients.rows();
+  if (normalized_ || kernel_.kind == KernelKind::clamped_plate || m > largest_block_outputs || count < 4) {
+    for (Index q = 0; q < count; ++q, queries += d, out += m) {
+      values(queries, row_.data());
+      multiply(coefficients, row_, Eigen::Map<Vector>(out, m));
+    }
+    return;
+  }
+  double* inner = block_inner_.data();  // block × d
+  double* sums = block_sums_.data();    // block × m
+  for (Index first = 0; first < count; first += block) {
+    const Index width = std::min(block, count - first);
+    for (Index q = 0; q < width; ++q) {
+      to_inner(queries + (first + q) * d, inner_.data());
+      polynomial_values(inner_.data(), d, degree_, row_.data());
+      for (Index axis = 0; axis < d; ++axis) inner[axis * block + q] = inner_.data()[axis];
+      for (Index j = 0; j < m; ++j) {
+        double sum = 0;
+        for (Index t = 0; t < tail_; ++t) sum += coefficients.data()[(k + t) * m + j] * row_.data()[t];
+        sums[j * block + q] = sum;
+      }
+    }
+    double column[block];
+    for (Index i = 0; i < k; ++i) {
+      std::fill(column, column + width, 0.0);
+      for (Index axis = 0; axis < d; ++axis) {
+        const double* __restrict x = inner + axis * block;
+        const double c = centers_.data()[axis * k + i];
+        for (Index q = 0; q < width; ++q) column[q] += (x[q] - c) * (x[q] - c);
+      }
+      const double inverse = inverse_squares_.data()[i];
+      for (Index q = 0; q < width; ++q) column[q] *= inverse;
+      kernel_.values(column, width);
+      for (Index j = 0; j < m; ++j) {
+        const double c = coefficients.data()[i * m + j] * amplitudes_.data()[i];
+        double* __restrict sum = sums + j * block;
+        for (Index q = 0; q < width; ++q) sum[q] += c * column[q];
+      }
+    }
+    for (Index q = 0; q < width; ++q)
+      for (Index j = 0; j < m; ++j) out[(first + q) * m + j] = sums[j * block + q];
+  }
+}
+
+}  // namespace handlebody

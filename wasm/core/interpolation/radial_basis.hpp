@@ -1,0 +1,102 @@
+// The functions that a radial basis interpolant is a linear combination of (2014 course, eq. (1) of §4.4 and §5.2): a kernel at
+// each of k centers and the polynomials up to a degree,
+//
+//   φᵢ(x) = aᵢ φ(‖x − cᵢ‖/hᵢ),  i < k,   then   p₁(x), p₂(x), …
+//
+// `normalized` divides the kernels by their sum (course §4.4.1): constants are then in the span without a tail, and the values stay
+// bounded far away. With a `metric` M distances are Mahalanobis's, ‖x‖² = xᵀMx (course §4.4).
+//
+// Inside, coordinates are moved and scaled to a bounding box with a unit diagonal, y = scale · Lᵀ(x − center) with M = LLᵀ. This
+// changes the conditioning and not the functions: widths are scaled along; homogeneous kernels change by the factor
+// amplitude_of_scale(), and r² ln r also by a multiple of r², which the side conditions of its tail turn into a polynomial.
+#pragma once
+
+#include "core/kernels/kernel.hpp"
+#include "core/numerics/result.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+struct RadialBasisOptions {
+  Kernel kernel;            // width in units of the points
+  int order = 2;            // of polyharmonic and clamped_plate
+  int degree = -1;          // of the polynomials: −1 (none) to 2; at least kernel.minimum_degree() unless normalized
+  bool normalized = false;  // needs a kernel without zeros
+
+  // One width a center instead of kernel.width (k, units of the points), or empty. Multiquadrics are then scaled by their widths,
+  // √(hᵢ² + r²), so that all grow alike and the side condition Σcᵢ = 0 still cancels the growth. No theorem guarantees that unequal
+  // widths give a regular matrix.
+  Vector widths = {};
+
+  MatrixXd metric = {};  // d×d, symmetric and positive definite, or empty for Euclidean distances
+};
+
+class RadialBasis {
+ public:
+  /** `points` (n×d) decide scale and origin; `centers` k×d. Fails with INVALID_OPTION, POINTS_TOO_FEW or POINTS_DEGENERATE (the
+   * points do not determine the polynomials, e.g. on one line for degree 1), or POINTS_OUTSIDE of the clamped plate's ball. */
+  static Result<RadialBasis> create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options);
+
+  Index centers() const { return centers_.rows(); }
+  Index tail() const { return tail_; }
+  Index size() const { return centers() + tail_; }
+  Index dimension() const { return center_.size(); }
+  const Kernel& kernel() const { return kernel_; }
+  int degree() const { return degree_; }
+  bool normalized() const { return normalized_; }
+  /** Whether the kernels' matrix at their own centers is symmetric. */
+  bool symmetric() const { return !normalized_ && !own_widths_; }
+
+  /** Widths in units of the points (k). */
+  Vector widths() const;
+  /** Inner lengths are this times the caller's. */
+  double scale() const { return scale_; }
+
+  /** A kernel in inner coordinates is this times the kernel in the caller's: s^e, s the scale and e the homogeneity, and for
+   * tension what makes values of about 1. */
+  double amplitude_of_scale() const { return amplitude_of_scale_; }
+
+  /** Points (n×d) in inner coordinates, where the polynomials are monomials. */
+  Matrix to_inner(const Matrix& points) const;
+
+  /** All functions (size()) at `query` (d, the caller's coordinates). Allocates nothing. */
+  void values(const double* query, double* out);
+
+  /** Their gradients too: out size()×d, axis after axis, in the caller's coordinates. Allocates nothing. */
+  void gradients(const double* query, double* out);
+
+  /** Σ coefficients · functions: `coefficients` m×size() column-major, out count×m. Allocates nothing for m ≤
+   * largest_block_outputs; blocks of queries share each center's work. */
+  void combine(const MatrixXd& coefficients, const double* queries, Index count, double* out);
+
+ private:
+  static constexpr Index block = 64;
+  static constexpr Index largest_block_outputs = 8;
+
+  RadialBasis() = default;
+  Result<Done> set_frame(const Matrix& points, const MatrixXd& metric);
+  Result<Done> set_widths(const RadialBasisOptions& options);
+  Result<Done> set_ball(const Matrix& points);
+  void to_inner(const double* query, double* inner) const;
+  void squared_distances();
+  double plate_margin(const double* inner) const;
+
+  Kernel kernel_;
+  int order_ = 2, degree_ = -1;
+  bool normalized_ = false, own_widths_ = false;
+  Index tail_ = 0;
+  Vector center_;    // d, the caller's coordinates
+  MatrixXd linear_;  // d×d: Lᵀ, or empty
+  double scale_ = 1, amplitude_of_scale_ = 1;
+  MatrixXd centers_;        // k×d, inner: the centers' first coordinates, then the second …
+  Vector widths_;           // k, inner
+  Vector inverse_squares_;  // k: 1/width², 1 for kernels without
+  Vector amplitudes_;       // k: aᵢ
+  Vector plate_margins_;    // k: 1 − ‖c‖² in the ball, of the clamped plate
+  // Scratch.
+  Vector inner_, squared_, slopes_, row_;
+  MatrixXd polynomials_;
+  Eigen::Matrix<double, block, Eigen::Dynamic> block_inner_, block_sums_;
+};
+
+}  // namespace handlebody

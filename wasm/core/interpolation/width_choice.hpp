@@ -1,0 +1,23 @@
+// Choosing the width of a kernel from the data.
+#pragma once
+
+#include "core/interpolation/rbf.hpp"
+
+namespace handlebody {
+
+/** A multiple of the points' mean spacing: wide enough to be smooth between points, narrow enough to be well conditioned. 2 for the
+ * Gaussian, the inverse multiquadric, the inverse quadratic and the compact inverse multiquadric, 1 for the multiquadric, 5 (the
+ * radius of its support) for Wendland's and Buhmann's; of the clamped plate 1.5 times the radius of the points around their middle;
+ * 1 for the caller's. */
+double spacing_width(const Matrix& points, const RadialBasisOptions& options);
+
+/** The width with the least sum of squared leave-one-out errors, among those with a condition number below 1e13: the best of a
+ * geometric grid from ¼ to 32 spacings, then golden section. About 25 fits, O(n³) each; of more than 256 points, 256 spread over
+ * them decide. */
+double leave_one_out_width(const ScatteredData& data, const RbfOptions& options);
+
+/** The largest width below the given one whose fit has a condition number of at most comfortable_condition; 0 where there is none.
+ */
+double comfortable_width(const ScatteredData& data, const RbfOptions& options);
+
+}  // namespace handlebody

@@ -1,0 +1,104 @@
+#include "core/numerics/graded_qr.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace handlebody {
+namespace {
+
+constexpr double rank_tolerance = 1e-10;
+
+}  // namespace
+
+GradedQr::GradedQr(Index most_rows, Index columns)
+    : a_(most_rows, columns),
+      scale_(most_rows),
+      tau_(columns),
+      size_(columns),
+      y_(most_rows),
+      row_of_(static_cast<std::size_t>(most_rows)),
+      column_of_(static_cast<std::size_t>(columns)) {}
+
+void GradedQr::reset(Index rows) {
+  rows_ = rows;
+  rank_ = 0;
+  std::iota(row_of_.begin(), row_of_.end(), 0u);
+  std::iota(column_of_.begin(), column_of_.end(), 0u);
+}
+
+bool GradedQr::extend(Index end) {
+  for (Index j = rank_; j < end; ++j) {
+    size_[j] = 0;
+    for (Index i = 0; i < rows_; ++i) size_[j] = std::max(size_[j], std::abs(a_(i, j)) / scale_[i]);
+    for (Index k = 0; k < rank_; ++k) reflect(k, &a_(0, j));
+  }
+  for (Index k = rank_; k < end; ++k) {
+    Index row = k, column = k;
+    double largest = 0;
+    for (Index j = k; j < end; ++j)
+      for (Index i = k; i < rows_; ++i)
+        if (std::abs(a_(i, j)) > largest) largest = std::abs(a_(row = i, column = j));
+    if (!(largest > 0)) return false;
+    swap_rows(row, k);
+    swap_columns(column, k);
+    if (!independent(k)) return false;
+
+    // Squares of quotients, which neither overflow nor vanish, and a reflector with a leading 1.
+    double* x = &a_(0, k);
+    double squared = 0;
+    for (Index i = k; i < rows_; ++i) squared += x[i] / largest * (x[i] / largest);
+    const double norm = largest * std::sqrt(squared), image = x[k] > 0 ? -norm : norm;  // away from x: no cancellation
+    for (Index i = k + 1; i < rows_; ++i) x[i] /= x[k] - image;
+    tau_[k] = 1 - x[k] / image;
+    x[k] = image;
+    for (Index j = k + 1; j < end; ++j) reflect(k, &a_(0, j));
+  }
+  rank_ = end;
+  return true;
+}
+
+void GradedQr::solve_transposed(const double* b, double* x) {
+  for (Index k = 0; k < rank_; ++k) {  // Rᵀ z = b
+    double rest = b[column_of_[static_cast<std::size_t>(k)]];
+    for (Index j = 0; j < k; ++j) rest -= a_(j, k) * y_[j];
+    y_[k] = rest / a_(k, k);
+  }
+  std::fill(y_.data() + rank_, y_.data() + rows_, 0.0);
+  for (Index k = rank_; k-- > 0;) reflect(k, y_.data());
+  for (Index i = 0; i < rows_; ++i) x[row_of_[static_cast<std::size_t>(i)]] = y_[i];
+}
+
+/** x ← (I − τ v vᵀ) x */
+void GradedQr::reflect(Index k, double* x) const {
+  const double* v = a_.data() + k * a_.rows();
+  double along = x[k];
+  for (Index i = k + 1; i < rows_; ++i) along += v[i] * x[i];
+  along *= tau_[k];
+  x[k] -= along;
+  for (Index i = k + 1; i < rows_; ++i) x[i] -= along * v[i];
+}
+
+/** Of reflectors too: as if the rows had been in this order all along. */
+void GradedQr::swap_rows(Index i, Index k) {
+  if (i == k) return;
+  for (Index j = 0; j < a_.cols(); ++j) std::swap(a_(i, j), a_(k, j));
+  std::swap(scale_[i], scale_[k]);
+  std::swap(row_of_[static_cast<std::size_t>(i)], row_of_[static_cast<std::size_t>(k)]);
+}
+
+void GradedQr::swap_columns(Index j, Index k) {
+  if (j == k) return;
+  for (Index i = 0; i < rows_; ++i) std::swap(a_(i, j), a_(i, k));
+  std::swap(size_[j], size_[k]);
+  std::swap(column_of_[static_cast<std::size_t>(j)], column_of_[static_cast<std::size_t>(k)]);
+}
+
+bool GradedQr::independent(Index column) const {
+  for (Index i = column; i < rows_; ++i)
+    if (std::abs(a_(i, column)) > rank_tolerance * size_[column] * scale_[i]) return true;
+  return false;
+}
+
+}  // namespace handlebody

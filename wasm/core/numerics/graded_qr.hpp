@@ -1,0 +1,43 @@
+// QR factorization of a tall matrix whose rows differ by many orders of magnitude, as those of weighted least squares do near a
+// singular weight: Householder's method with row and column pivoting, which leaves every row an error in proportion to its own size
+// (Powell and Reid 1969; Cox and Higham 1998). Columns are factored in blocks, so that a block that turns out dependent on the
+// former ones can be left out. Made once and filled again and again without allocating.
+#pragma once
+
+#include "core/numerics/sort.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+class GradedQr {
+ public:
+  GradedQr(Index most_rows, Index columns);
+
+  /** Begins another matrix A of `rows` rows. All its elements must then be set, and the scale of each row, which is positive. */
+  void reset(Index rows);
+  double& operator()(Index row, Index column) { return a_(row, column); }
+  double& scale(Index row) { return scale_[row]; }
+
+  /** Factors further columns, up to `end`, in any order among themselves. False, and nothing done, where one of them depends on the
+   *  others to 1e-10: where what is left of it, divided by the rows' scales, is nowhere above that part of what it was at most. */
+  bool extend(Index end);
+
+  Index rows() const { return rows_; }
+  Index rank() const { return rank_; }  // columns factored
+
+  /** x (rows): of all solutions of Aᵀx = b the shortest, for the first rank() columns of A. */
+  void solve_transposed(const double* b, double* x);
+
+ private:
+  void reflect(Index k, double* x) const;
+  void swap_rows(Index i, Index k);
+  void swap_columns(Index j, Index k);
+  bool independent(Index column) const;
+
+  MatrixXd a_;  // on and above the diagonal R, below it the reflectors 1, v₁, v₂ …
+  Vector scale_, tau_, size_, y_;
+  Numbers row_of_, column_of_;  // the caller's numbers
+  Index rows_ = 0, rank_ = 0;
+};
+
+}  // namespace handlebody

@@ -1,0 +1,201 @@
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+
+/** What lies beyond the ends: nothing, zeros, the ends' own values (no slope), or the other end. */
+export type GridBoundary = 'free' | 'dirichlet' | 'neumann' | 'periodic';
+
+export interface DiscreteGreenOptions {
+  /** Samples of the grid, N: order + 1 to 1024. */
+  readonly size: number;
+  /** Of the differences D. */
+  readonly order?: 1 | 2 | 3;
+  readonly boundary?: GridBoundary;
+  /** Where values are known: different numbers from 0 to size − 1. */
+  readonly samples: ArrayLike<number>;
+  /** One a sample. */
+  readonly values: ArrayLike<number>;
+}
+
+export const DISCRETE_GREEN_DEFAULTS = { order: 2, boundary: 'free' } as const;
+
+/** A matrix to look at: row-major. */
+export interface GridMatrix {
+  readonly rows: number;
+  readonly columns: number;
+  readonly values: Float64Array;
+}
+
+const BOUNDARIES: Record<GridBoundary, number> = { free: 0, dirichlet: 1, neumann: 2, periodic: 3 };
+const MATRICES = { operator: 0, squared: 1, nullSpace: 2, green: 3 } as const;
+
+/**
+ * Where kernels come from (2014 course, §5.4–5.6): the curve through given samples of a grid that minimizes ‖Df‖², D a difference
+ * operator, found on the grid and by radial functions, which are columns of (DᵀD)⁻¹.
+ *
+ * ```ts
+ * const lesson = hb.discreteGreen({ size: 100, order: 2, samples: [10, 40, 70], values: [0, 1, 0.5] });
+ * lesson.green;         // 100×100: its columns are the kernel, here a cubic spline's
+ * lesson.nullSpace;     // 100×2: straight lines, which D cannot see: the polynomial of §5.2
+ * lesson.solveGrid();   // 100 values …
+ * lesson.solveRadial(); // … and the same again from 3 weights and 2 coefficients
+ * ```
+ */
+export class DiscreteGreen {
+  readonly size: number;
+  readonly order: 1 | 2 | 3;
+  readonly boundary: GridBoundary;
+  /** Samples given. */
+  readonly sampleCount: number;
+  /** Dimension of the null space of DᵀD: 0 where it is regular. */
+  readonly nullity: number;
+
+  readonly #heap: Heap;
+  readonly #rows: number;
+  readonly #matrices = new Map<number, GridMatrix>();
+  #handle: number;
+
+  /** @internal Use `Handlebody.discreteGreen`. */
+  constructor(heap: Heap, options: DiscreteGreenOptions) {
+    const { size, order, boundary, samples, values } = { ...DISCRETE_GREEN_DEFAULTS, ...options };
+    checkOptions(size, order, boundary, samples, values);
+    const made = heap.scope((scratch) => {
+      const from = scratch.putU32(samples);
+      const at = scratch.putF64(values);
+      const out = scratch.reserve(8);
+      heap.check((e) => e.hb_discrete_green_create(size, order, BOUNDARIES[boundary], from, at, samples.length, out));
+      const handle = heap.u32(out, 1)[0] ?? 0;
+      heap.check((e) => e.hb_discrete_green_shape(handle, out, out + 4));
+      const [rows = 0, nullity = 0] = heap.u32(out, 2);
+      return { handle, rows, nullity };
+    });
+    this.size = size;
+    this.order = order;
+    this.boundary = boundary;
+    this.sampleCount = samples.length;
+    this.nullity = made.nullity;
+    this.#heap = heap;
+    this.#rows = made.rows;
+    this.#handle = made.handle;
+  }
+
+  /** D. */
+  get operator(): GridMatrix {
+    return this.#matrix('operator', this.#rows, this.size);
+  }
+
+  /** DᵀD, size × size. */
+  get squared(): GridMatrix {
+    return this.#matrix('squared', this.size, this.size);
+  }
+
+  /** Orthonormal columns that D takes to zero, size × nullity: the polynomials of §5.2. */
+  get nullSpace(): GridMatrix {
+    return this.#matrix('nullSpace', this.size, this.nullity);
+  }
+
+  /** Green's matrix G, size × size: (DᵀD)⁻¹, or where that is singular the corner of the inverse of [DᵀD N; Nᵀ 0], N the null space. */
+  get green(): GridMatrix {
+    return this.#matrix('green', this.size, this.size);
+  }
+
+  /** The curve (size numbers) by eliminating everything that is not a sample. */
+  solveGrid(out: Float64Array = new Float64Array(this.size)): Float64Array {
+    return this.#solve(out, undefined);
+  }
+
+  /** The curve by radial functions: G's columns at the samples and the null space, by `weights` (sampleCount + nullity). */
+  solveRadial(
+    out: Float64Array = new Float64Array(this.size),
+    weights: Float64Array = new Float64Array(this.sampleCount + this.nullity),
+  ): Float64Array {
+    return this.#solve(out, weights);
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
+  dispose(): void {
+    const handle = this.#handle;
+    if (handle === 0) return;
+    this.#handle = 0;
+    this.#matrices.clear();
+    this.#heap.call((e) => e.hb_discrete_green_free(handle));
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  #alive(): number {
+    if (this.#handle !== 0) return this.#handle;
+    throw new HandlebodyError('disposed', {
+      message: 'This grid was disposed of and cannot be used any more.',
+      remedy: 'Make a new one with discreteGreen(options).',
+    });
+  }
+
+  #matrix(name: keyof typeof MATRICES, rows: number, columns: number): GridMatrix {
+    const handle = this.#alive();
+    const which = MATRICES[name];
+    const known = this.#matrices.get(which);
+    if (known) return known;
+    const values = this.#heap.scope((scratch) => {
+      const at = scratch.reserve(8 * rows * columns);
+      this.#heap.check((e) => e.hb_discrete_green_matrix(handle, which, at));
+      return this.#heap.f64(at, rows * columns).slice();
+    });
+    const matrix = { rows, columns, values };
+    this.#matrices.set(which, matrix);
+    return matrix;
+  }
+
+  #solve(out: Float64Array, weights: Float64Array | undefined): Float64Array {
+    const handle = this.#alive();
+    checkRoom('curve', out, this.size);
+    if (weights) checkRoom('weights', weights, this.sampleCount + this.nullity);
+    this.#heap.scope((scratch) => {
+      const curve = scratch.reserve(8 * this.size);
+      const at = scratch.reserve(8 * (weights?.length ?? 0));
+      this.#heap.check((e) =>
+        weights ? e.hb_discrete_green_solve_radial(handle, curve, at) : e.hb_discrete_green_solve_grid(handle, curve),
+      );
+      out.set(this.#heap.f64(curve, this.size));
+      weights?.set(this.#heap.f64(at, weights.length));
+    });
+    return out;
+  }
+}
+
+/** What C cannot see: names, lengths, and numbers that are not whole. */
+function checkOptions(size: number, order: number, boundary: string, samples: ArrayLike<number>, values: ArrayLike<number>): void {
+  const wrong = (message: string, remedy: string, culprit: 'option' | 'point' = 'option', index = -1) =>
+    new HandlebodyError('invalid-option', { message, remedy, culprit: { kind: culprit, index } });
+  if (!Object.hasOwn(BOUNDARIES, boundary))
+    throw wrong(`There is no boundary called "${boundary}".`, `Use one of: ${Object.keys(BOUNDARIES).join(', ')}.`);
+  if (!Number.isInteger(size) || size < 1 || size > 2 ** 31)
+    throw wrong(`The size ${size} is no number of samples.`, 'Use 4 to 1024.');
+  if (!Number.isInteger(order) || order < 1)
+    throw wrong(`The order ${order} of the differences is not 1, 2 or 3.`, 'Use 1, 2 or 3.');
+  if (samples.length !== values.length) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `There are ${values.length} values for ${samples.length} samples.`,
+      remedy: 'Give each sample one value.',
+    });
+  }
+  for (let k = 0; k < samples.length; k++) {
+    const sample = samples[k] as number;
+    if (Number.isInteger(sample) && sample >= 0 && sample < size) continue;
+    throw wrong(
+      `Sample ${k} is at ${sample}, which is no place of the grid.`,
+      `Use whole numbers from 0 to ${size - 1}.`,
+      'point',
+      k,
+    );
+  }
+}
+
+function checkRoom(what: string, out: Float64Array, length: number): void {
+  if (out.length === length) return;
+  throw new HandlebodyError('invalid-shape', {
+    message: `There is room for ${out.length} numbers of the ${what}, of which there are ${length}.`,
+    remedy: `Give ${length} numbers, or leave it out.`,
+  });
+}

@@ -1,0 +1,63 @@
+import { HandlebodyError } from './errors.ts';
+import type { KernelFunction, UserKernel } from './kernels.ts';
+
+/** Distance of the two values whose difference stands for a derivative, relative to s: the cube root of the double's precision. */
+const STEP = 6e-6;
+
+/**
+ * The callers' kernels of one instance. The solver calls them by number in the middle of its work, so nothing may be thrown through it: a
+ * failure is kept, NaN is answered, and `throwFailure()` tells of it when the solver has returned.
+ */
+export class HostKernels {
+  readonly #kernels = new Map<number, { value: KernelFunction; derivative: KernelFunction }>();
+  #next = 1;
+  #failure: { readonly s: number; readonly got: unknown; readonly thrown: boolean } | undefined;
+
+  add(kernel: KernelFunction | UserKernel): number {
+    const value = typeof kernel === 'function' ? kernel : kernel.value;
+    const given = typeof kernel === 'function' ? undefined : kernel.derivative;
+    const derivative =
+      given ??
+      ((s: number) => {
+        const h = STEP * Math.max(s, 1e-3);
+        const low = Math.max(0, s - h);
+        return (value(s + h) - value(low)) / (s + h - low);
+      });
+    this.#kernels.set(this.#next, { value, derivative });
+    return this.#next++;
+  }
+
+  remove(id: number): void {
+    this.#kernels.delete(id);
+  }
+
+  /** What the solver calls: never throws. */
+  readonly call = (id: number, derivative: number, s: number): number => {
+    const kernel = this.#kernels.get(id);
+    if (!kernel) return Number.NaN;
+    try {
+      const got = (derivative ? kernel.derivative : kernel.value)(s);
+      if (Number.isFinite(got)) return got;
+      this.#failure ??= { s, got, thrown: false };
+    } catch (error) {
+      this.#failure ??= { s, got: error, thrown: true };
+    }
+    return Number.NaN;
+  };
+
+  /** Throws what a kernel did wrong since the last call, as 'kernel-failed'; `error` is what the solver made of it. */
+  throwFailure(error?: unknown): void {
+    const failure = this.#failure;
+    if (!failure) return;
+    this.#failure = undefined;
+    const { s, got, thrown } = failure;
+    const what = thrown ? `threw "${got instanceof Error ? got.message : String(got)}"` : `returned ${String(got)}`;
+    const solver = error instanceof HandlebodyError && error.code === 'kernel-failed' ? error : undefined;
+    throw new HandlebodyError('kernel-failed', {
+      message: `Your kernel ${what} at s = ${s}.${solver ? ` ${solver.message}` : ''}`,
+      remedy: 'Return a finite number for every s from 0 on (s is the distance over the width).',
+      culprit: solver?.culprit,
+      cause: thrown ? got : error,
+    });
+  }
+}

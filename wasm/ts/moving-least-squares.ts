@@ -1,0 +1,89 @@
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+import { Interpolant, type ScatteredData } from './interpolant.ts';
+
+/** `inverse-distance`: (r + ε)⁻ᵖ. `gaussian`: exp(−(r/h)²). `wendland`: (1 − r/h)⁴₊ (4r/h + 1), nothing beyond h. */
+export type MovingWeight = 'inverse-distance' | 'gaussian' | 'wendland';
+
+export interface MovingLeastSquaresOptions extends ScatteredData {
+  /** Of the polynomial that is fitted at every place, and reproduced. */
+  readonly degree?: 0 | 1 | 2;
+  /** `'inverse-distance'` interpolates where `epsilon` is 0; the others approximate. */
+  readonly weight?: MovingWeight;
+  /** p > 0 of `'inverse-distance'`: smooth above 1, cusps at the points up to 1. */
+  readonly power?: number;
+  /** ε ≥ 0 of `'inverse-distance'`, in units of the points; above 0 the points are approximated only. */
+  readonly epsilon?: number;
+  /**
+   * h of the other weights, in units of the points. `'auto'`: 2 + degree mean distances to the nearest neighbor for `'gaussian'`, twice
+   * that for `'wendland'`.
+   */
+  readonly width?: number | 'auto';
+}
+
+export const MOVING_LEAST_SQUARES_DEFAULTS = {
+  degree: 1,
+  weight: 'inverse-distance',
+  power: 4,
+  epsilon: 0,
+  width: 'auto',
+} as const;
+
+const WEIGHTS: Record<MovingWeight, number> = { 'inverse-distance': 0, gaussian: 1, wendland: 2 };
+
+/**
+ * Moving least squares (Lancaster and Salkauskas 1981): the value at x is that of a polynomial fitted to all points by weights that fall
+ * with their distance from x. Of degree 0 with inverse distances it is Shepard's method; higher degrees have no flat spots.
+ *
+ * Where the points near by do not determine the polynomial, `'wendland'` widens to 2q of them (q polynomials), and the degree falls to
+ * one that they do determine.
+ *
+ * ```ts
+ * const f = hb.movingLeastSquares({ dimension: 1, points: [0, 1, 3, 4], values: [2, 0, 1, 1], degree: 1 });
+ * f.evaluate([0.5, 2]);
+ * ```
+ */
+export class MovingLeastSquares extends Interpolant {
+  /** h as given or chosen; 0 for `'inverse-distance'`. */
+  readonly width: number;
+
+  /** @internal Use `Handlebody.movingLeastSquares`. */
+  constructor(heap: Heap, options: MovingLeastSquaresOptions) {
+    const { degree, weight, power, epsilon, width } = { ...MOVING_LEAST_SQUARES_DEFAULTS, ...options };
+    if (!Object.hasOwn(WEIGHTS, weight)) throw wrong(`There is no weight called "${weight}".`, Object.keys(WEIGHTS).join(', '));
+    if (degree !== 0 && degree !== 1 && degree !== 2) throw wrong(`The degree ${degree} is not 0, 1 or 2.`, '0, 1 or 2');
+    // The solver reads 0 as "automatic", which nobody who writes 0 means.
+    if (width !== 'auto' && !(typeof width === 'number' && width > 0))
+      throw wrong(`The width ${width} is not a positive number.`, "a number in units of the points, or 'auto'");
+    let used = 0;
+    super(
+      heap,
+      options,
+      (e, { points, values, count, dimension, outputs, out }, at) => {
+        const [method, h] = [WEIGHTS[weight], width === 'auto' ? 0 : width];
+        const status = e.hb_moving_least_squares_create(
+          points,
+          values,
+          count,
+          dimension,
+          outputs,
+          degree,
+          method,
+          power,
+          epsilon,
+          h,
+          at,
+          out,
+        );
+        used = heap.f64(at, 1)[0] ?? 0;
+        return status;
+      },
+      (scratch) => scratch.reserve(8),
+    );
+    this.width = used;
+  }
+}
+
+function wrong(message: string, use: string): HandlebodyError {
+  return new HandlebodyError('invalid-option', { message, remedy: `Use ${use}.`, culprit: { kind: 'option', index: -1 } });
+}

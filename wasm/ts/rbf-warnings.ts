@@ -1,0 +1,149 @@
+import { KERNELS } from './kernels.ts';
+import type { RbfOptions } from './rbf-options.ts';
+import type { RbfReport, RbfWarning } from './rbf-report.ts';
+
+/** What a report tells beyond what it shows. */
+export interface WarningFacts {
+  readonly options: RbfOptions;
+  readonly dimension: number;
+  readonly merged: readonly { readonly point: number; readonly into: number }[];
+  readonly nearCount: number;
+  readonly pairs: readonly (readonly [number, number])[];
+  readonly suggestedWidth: number | undefined;
+  readonly suggestedSmoothing: number | undefined;
+}
+
+/** From here on fewer than four digits are safe. */
+const ILL_CONDITIONED = 1e12;
+/** A kernel this narrow has fallen to a few percent halfway to its neighbor (Fig. 15). */
+const NARROW = 0.3;
+
+/** The warnings that a fit deserves, the weightiest first. */
+export function warningsOf(report: Omit<RbfReport, 'warnings'>, facts: WarningFacts): RbfWarning[] {
+  return [illConditioned, missesPoints, nearDuplicates, mergedDuplicates, narrowWidth, notDefinite, unequalWidths].flatMap(
+    (check) => check(report, facts),
+  );
+}
+
+type Check = (report: Omit<RbfReport, 'warnings'>, facts: WarningFacts) => RbfWarning[];
+
+const illConditioned: Check = ({ condition, width, spacing, kernel }, { options, suggestedWidth, suggestedSmoothing }) => {
+  if (condition <= ILL_CONDITIONED) return [];
+  const power = Number.isFinite(condition) ? `1e${Math.round(Math.log10(condition))}` : 'infinite';
+  const wide = hasWidth(kernel) && spacing > 0 && typeof options.width !== 'object';
+  const subject = wide
+    ? `Width ${short(width)} is ${short(width / spacing)} × the mean spacing`
+    : 'The equations are close to singular';
+  const remedies = [
+    ...(suggestedWidth ? [`a width ≤ ${short(suggestedWidth)}`] : []),
+    ...(suggestedSmoothing ? [`smoothing ≥ ${suggestedSmoothing.toExponential(0).replace('e-0', 'e-')}`] : []),
+  ];
+  const width2 = suggestedWidth ? { width: roundDown(suggestedWidth) } : {};
+  const smoothing = suggestedSmoothing ? { smoothing: Number(suggestedSmoothing.toPrecision(2)) } : {};
+  return [
+    {
+      code: 'ill-conditioned',
+      message: `${subject}: condition ${power}.`,
+      remedy: remedies.length ? `Try ${remedies.join(' or ')}.` : 'Try weight decay, or fewer centers.',
+      ...(remedies.length && { suggestion: { ...width2, ...smoothing } }),
+    },
+  ];
+};
+
+const missesPoints: Check = ({ kernel, residual, centers }, { options }) => {
+  const interpolates = !options.smoothing && !options.weightDecay && !options.centers;
+  if (!interpolates) return [];
+  let largest = 0;
+  for (let i = 0; i < options.values.length; i++) largest = Math.max(largest, Math.abs(options.values[i] ?? 0));
+  if (residual <= 1e-6 * largest) return [];
+  return [
+    {
+      code: 'misses-points',
+      message: `The surface misses its ${centers} points by up to ${short(residual)}, which is rounding error.`,
+      remedy:
+        kernel === 'tension'
+          ? 'Try some smoothing, or weights that differ less.'
+          : 'Try a smaller width, another kernel, or some smoothing.',
+    },
+  ];
+};
+
+const nearDuplicates: Check = ({ spacing }, { nearCount, pairs }) => {
+  if (nearCount === 0) return [];
+  const named = pairs.map(([i, j]) => `${i} and ${j}`).join(', ');
+  return [
+    {
+      code: 'near-duplicates',
+      message: `${nearCount === 1 ? 'One pair of points is' : `${nearCount} pairs of points are`} closer than a thousandth of the mean spacing ${short(spacing)}: ${named}${nearCount > pairs.length ? ' …' : ''}.`,
+      remedy: 'Remove one of each, or allow smoothing: between them the surface may be steep.',
+      points: [...new Set(pairs.flat())],
+    },
+  ];
+};
+
+const mergedDuplicates: Check = (_, { merged }) => {
+  const [first] = merged;
+  if (!first) return [];
+  const more = merged.length > 1 ? ` (and ${merged.length - 1} more)` : '';
+  return [
+    {
+      code: 'merged-duplicates',
+      message: `Point ${first.point} repeats point ${first.into}${more}, with the same values, and was left out.`,
+      remedy: 'Nothing has to be done; remove it to silence this.',
+      points: merged.map(({ point }) => point),
+    },
+  ];
+};
+
+const narrowWidth: Check = ({ width, spacing, kernel }, { options }) => {
+  const fades = hasWidth(kernel) && kernel !== 'multiquadric' && kernel !== 'custom' && kernel !== 'clamped-plate';
+  if (!fades || options.normalized || typeof options.width !== 'number' || !(width < NARROW * spacing)) return [];
+  const suggestion = 2 * spacing;
+  return [
+    {
+      code: 'narrow-width',
+      message: `Width ${short(width)} is ${short(width / spacing)} × the mean spacing: the surface falls back to ${options.degree === -1 || options.degree === undefined || options.degree === 'auto' ? 'zero' : 'the tail'} between points.`,
+      remedy: `Try a width ≥ ${short(suggestion)}.`,
+      suggestion: { width: Number(suggestion.toPrecision(2)) },
+    },
+  ];
+};
+
+const notDefinite: Check = ({ kernel }, { dimension }) => {
+  // Of a kernel of their own the callers know, or want to find out; tension's is definite where it is defined.
+  if (kernel === 'custom' || kernel === 'tension' || dimension <= KERNELS[kernel].definiteToDimension) return [];
+  return [
+    {
+      code: 'not-definite',
+      message: `No theorem says that the ${kernel} kernel has regular equations in ${dimension} ${dimension === 1 ? 'dimension' : 'dimensions'}.`,
+      remedy: 'Mind the condition number, or use a Wendland kernel, which is positive definite in every dimension.',
+    },
+  ];
+};
+
+const unequalWidths: Check = (_, { options }) => {
+  if (typeof options.width !== 'object') return [];
+  return [
+    {
+      code: 'unequal-widths',
+      message: 'With a width for each center the matrix is not symmetric, and no theorem says that it is regular.',
+      remedy: 'Mind the condition number.',
+    },
+  ];
+};
+
+function hasWidth(kernel: RbfReport['kernel']): boolean {
+  return kernel === 'custom' || (kernel !== 'tension' && KERNELS[kernel].hasWidth);
+}
+
+/** Two or three significant digits, as people write them. */
+function short(number: number): string {
+  const rounded = Number(number.toPrecision(2));
+  return Math.abs(rounded) >= 1e-3 && Math.abs(rounded) < 1e5 ? String(rounded) : rounded.toExponential();
+}
+
+/** Two significant digits, never more than the number. */
+function roundDown(number: number): number {
+  const unit = 10 ** (Math.floor(Math.log10(number)) - 1);
+  return Number((Math.floor(number / unit) * unit).toPrecision(2));
+}

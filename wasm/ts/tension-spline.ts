@@ -1,0 +1,80 @@
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+import { checkShapes, Interpolant, type ScatteredData } from './interpolant.ts';
+import { readReport } from './rbf-read-report.ts';
+import { printWarning, type RbfReport, type RbfWarning } from './rbf-report.ts';
+
+export interface TensionSplineOptions extends ScatteredData {
+  /** Weight of curvature, α ≥ 0; 0 only in 1 dimension. */
+  readonly alpha?: number;
+  /** Weight of slope, β ≥ 0: the tension. It takes out overshoot over lengths beyond √(α/β). */
+  readonly beta?: number;
+  /** Weight of the value itself, γ ≥ 0: makes the function decay to 0 over lengths beyond ⁴√(α/γ). */
+  readonly gamma?: number;
+  /** σ ≥ 0, what divides the misfit: 0 interpolates, 1 is the functional as the course prints it. */
+  readonly smoothing?: number;
+  /**
+   * `'natural'`: the functional is that over all of space. `'zero-slope'`, in 1 dimension without gamma and smoothing: over the points'
+   * interval only, flat at both ends and constant beyond (Fig. 11).
+   */
+  readonly ends?: 'natural' | 'zero-slope';
+  /** Called for each warning when the spline is made. By default they go to the console; `report()` has them too. */
+  readonly onWarning?: (warning: RbfWarning) => void;
+}
+
+export const TENSION_SPLINE_DEFAULTS = { alpha: 1, beta: 0, gamma: 0, smoothing: 0, ends: 'natural' } as const;
+
+const ENDS: readonly unknown[] = ['natural', 'zero-slope'];
+
+/**
+ * The spline with tension in 1, 2 or 3 dimensions (2014 course, §4.2 and eq. (2)): the function with the least
+ * Σ (f(xᵢ) − yᵢ)²/σ + α ∫(∇²f)² + β ∫|∇f|² + γ ∫f². `beta` trades smoothness for less overshoot, `gamma` makes it fall back to zero
+ * where there are no points.
+ *
+ * ```ts
+ * const f = hb.tensionSpline({ dimension: 1, points: [0, 1, 2, 3], values: [0, 0, 1, 1], beta: 10, ends: 'zero-slope' });
+ * f.evaluate([0.5, 1.5]);
+ * ```
+ */
+export class TensionSpline extends Interpolant {
+  readonly #options: TensionSplineOptions;
+  readonly #degree: number;
+  readonly #ends: 'natural' | 'zero-slope';
+  #report: RbfReport | undefined;
+
+  /** @internal Use `Handlebody.tensionSpline`. */
+  constructor(heap: Heap, options: TensionSplineOptions) {
+    const { alpha, beta, gamma, smoothing, ends } = { ...TENSION_SPLINE_DEFAULTS, ...options };
+    const kind = ENDS.indexOf(ends);
+    if (kind === -1) {
+      throw new HandlebodyError('invalid-option', {
+        message: `There are no ends called "${ends}".`,
+        remedy: `Use one of: ${ENDS.join(', ')}.`,
+        culprit: { kind: 'option', index: -1 },
+      });
+    }
+    const degree = gamma > 0 ? -1 : beta > 0 ? 0 : 1;
+    const { count } = checkShapes(options);
+    if (kind === 0) heap.check((e) => e.hb_rbf_check_size(count, options.dimension, 0, degree));
+    super(heap, options, (e, { points, values, dimension, outputs, out }) =>
+      e.hb_tension_spline_create(points, values, count, dimension, outputs, alpha, beta, gamma, smoothing, kind, out),
+    );
+    this.#options = options;
+    this.#degree = degree;
+    this.#ends = ends;
+    for (const warning of this.report()?.warnings ?? []) (options.onWarning ?? printWarning)(warning);
+  }
+
+  /** What the fit is worth, and what to mind; `undefined` for zero-slope ends, whose equations are always good-natured. */
+  report(): RbfReport | undefined {
+    if (this.#ends === 'zero-slope') return undefined;
+    this.#report ??= readReport(this.heap, this.handle, {
+      kernel: 'tension',
+      degree: this.#degree,
+      options: this.#options,
+      dimension: this.dimension,
+      merged: this.merged,
+    });
+    return this.#report;
+  }
+}

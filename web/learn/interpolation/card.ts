@@ -1,0 +1,153 @@
+import { h } from '../../ui/dom.ts';
+import { type Control, controlOf } from './controls.ts';
+import type { Settings } from './experiment.ts';
+import type { Fit } from './fit.ts';
+import { kindOf } from './interpolants.ts';
+import type { Parameter } from './parameter.ts';
+import { swatch } from './swatch.ts';
+import { WarningList } from './warning-list.ts';
+import { WeightList } from './weight-list.ts';
+import { brief, conditionText, health } from './words.ts';
+
+export interface CardActions {
+  set(key: number, settings: Settings): void;
+  setShown(key: number, shown: boolean): void;
+  remove(key: number): void;
+  /** Somebody looks at this one; 0: at none. */
+  emphasize(key: number): void;
+}
+
+let nextId = 1;
+
+/** One interpolant in the panel: what it is, what it is worth, what can be set. */
+export class Card {
+  readonly element: HTMLElement;
+  readonly fit: Fit;
+  readonly #dimension: 1 | 2;
+  readonly #name = h('span', { class: 'name' });
+  readonly #detail = h('span', { class: 'detail' });
+  readonly #shown: HTMLInputElement;
+  readonly #verdict = h('p', { class: 'verdict' });
+  readonly #condition = h('span', { class: 'condition' });
+  readonly #misfit = h('span');
+  readonly #controls: [Parameter, Control][];
+  readonly #warnings: WarningList;
+  readonly #weights = new WeightList();
+  readonly #body: HTMLElement;
+  readonly #toggle: HTMLButtonElement;
+  readonly #remove: HTMLButtonElement;
+
+  constructor(fit: Fit, dimension: 1 | 2, open: boolean, actions: CardActions) {
+    const { key, kind, slot } = fit.model;
+    this.fit = fit;
+    this.#dimension = dimension;
+    this.#shown = h('input', { type: 'checkbox', onchange: () => actions.setShown(key, this.#shown.checked) });
+    const parameters = kindOf(kind)?.parameters ?? [];
+    this.#controls = parameters.map((parameter) => [
+      parameter,
+      controlOf(parameter, (setting) => actions.set(key, { [parameter.id]: setting })),
+    ]);
+    const known = new Set(parameters.map(({ id }) => id));
+    this.#warnings = new WarningList(known, (settings) => actions.set(key, settings));
+    this.#verdict.append(this.#condition, this.#misfit);
+
+    const of = (rare: boolean) =>
+      this.#controls.filter(([parameter]) => !!parameter.rare === rare).map(([, { element }]) => element);
+    const id = `card-${nextId++}`;
+    this.#body = h('div', { class: 'card-body', id, hidden: !open }, ...of(false));
+    if (of(true).length > 0)
+      this.#body.append(
+        h('details', { class: 'more' }, h('summary', {}, 'More settings'), h('div', { class: 'card-more' }, ...of(true))),
+      );
+    this.#body.append(this.#weights.element);
+    if (parameters.length === 0) this.#body.append(h('p', { class: 'soft' }, 'There is nothing to set.'));
+
+    this.#toggle = h('button', {
+      type: 'button',
+      class: 'tool-button chevron',
+      'aria-controls': id,
+      'aria-expanded': open,
+      onclick: () => this.open(this.#body.hidden),
+    });
+    this.#toggle.ariaExpanded = String(open);
+    this.#remove = h('button', { type: 'button', class: 'tool-button', onclick: () => actions.remove(key) }, '×');
+    const head = h(
+      'div',
+      { class: 'card-head' },
+      h('label', { class: 'card-name' }, this.#shown, swatch(slot), h('span', { class: 'card-title' }, this.#name, this.#detail)),
+      this.#toggle,
+      this.#remove,
+    );
+    this.element = h('li', { class: 'card' }, head, this.#verdict, this.#warnings.element, this.#body);
+    this.element.addEventListener('pointerenter', () => actions.emphasize(key));
+    this.element.addEventListener('pointerleave', () => actions.emphasize(0));
+    this.element.addEventListener('focusin', () => actions.emphasize(key));
+    this.element.addEventListener('focusout', () => actions.emphasize(0));
+  }
+
+  get opened(): boolean {
+    return !this.#body.hidden;
+  }
+
+  open(open: boolean): void {
+    this.#body.hidden = !open;
+    this.#toggle.ariaExpanded = String(open);
+    if (open) this.#fill();
+  }
+
+  focus(): void {
+    this.#shown.focus();
+  }
+
+  /** Writes what has changed; `tolerance` is how far a curve may miss its points and still pass through them. */
+  update(tolerance: number): void {
+    const { label, model, verdict, problem } = this.fit;
+    write(this.#name, label.name);
+    write(this.#detail, label.detail);
+    const title = [label.name, label.detail].filter(Boolean).join(', ');
+    this.#toggle.ariaLabel = `Settings of ${title}`;
+    this.#remove.ariaLabel = `Remove ${title}`;
+    this.#shown.checked = model.shown;
+    this.element.toggleAttribute('data-off', !model.shown);
+    this.element.toggleAttribute('data-failed', problem !== undefined);
+    const report = verdict?.report;
+    this.#verdict.hidden = !verdict || problem !== undefined;
+    this.#condition.hidden = !report;
+    if (report) {
+      const word = health(report.condition);
+      this.#condition.dataset.health = word;
+      write(this.#condition, `condition ${conditionText(report.condition)}: ${word}`);
+    }
+    if (verdict) {
+      const width = report && model.settings.fit !== 'own' && hasWidth(this.fit) ? `width ${brief(report.width)}, ` : '';
+      write(
+        this.#misfit,
+        width + (verdict.misfit <= tolerance ? 'passes through all points' : `misses points by up to ${brief(verdict.misfit)}`),
+      );
+    }
+    this.#warnings.show(problem, report?.warnings ?? []);
+    if (!this.#body.hidden) this.#fill();
+  }
+
+  #fill(): void {
+    const { settings } = this.fit.model;
+    for (const [parameter, control] of this.#controls) {
+      control.element.hidden = !(parameter.when?.(settings, this.#dimension) ?? true);
+      const setting = settings[parameter.id];
+      if (setting !== undefined) control.show(setting);
+    }
+    this.#weights.show(this.fit.verdict?.coefficients);
+  }
+}
+
+function hasWidth({ model }: Fit): boolean {
+  return (
+    kindOf(model.kind)
+      ?.parameters.find(({ id }) => id === 'fit')
+      ?.when?.(model.settings, 1) ?? false
+  );
+}
+
+function write(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}

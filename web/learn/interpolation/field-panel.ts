@@ -1,0 +1,158 @@
+import { h } from '../../ui/dom.ts';
+import type { ColorMap } from './color-map.ts';
+import type { Experiment } from './experiment.ts';
+import { FieldValues } from './field.ts';
+import { type Board, Handles } from './handles.ts';
+import { drawIsolines, levels } from './isolines.ts';
+import type { Label } from './kind.ts';
+import type { Line } from './section.ts';
+import { swatch } from './swatch.ts';
+import type { PlaneActions, Relief } from './view.ts';
+
+/** One interpolant in the plane: a picture, its name, and the points over it. */
+export class FieldPanel {
+  readonly element: HTMLElement;
+  readonly canvas = h('canvas');
+  readonly area = h('div', { class: 'field-area' });
+  readonly field = new FieldValues();
+  readonly #handles: Handles;
+  readonly #name = h('span', { class: 'name' });
+  readonly #detail = h('span', { class: 'detail' });
+  readonly #small = h('canvas');
+  /** Where points lie over a surface; nothing over a map. */
+  relief: Relief | undefined;
+  #pixels: ImageData | undefined;
+  #words: Uint32Array | undefined;
+  /** Device pixels of a side. */
+  #side = 0;
+  #width = 0;
+
+  /** `first`: its handles are those that the keyboard reaches. */
+  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PlaneActions, resized: () => void) {
+    const board: Board = {
+      screen: (i) => {
+        const [left, right, bottom, top] = experiment().frame;
+        const [x, y] = actions.placeOf(i);
+        if (this.relief) {
+          const [across, down] = this.relief.screen(experiment(), i);
+          return [across * this.#width, down * this.#width];
+        }
+        return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width];
+      },
+      place: (px, py) => {
+        if (this.relief) return undefined;
+        const [left, right, bottom, top] = experiment().frame;
+        return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)];
+      },
+      drag: (i, px, py) => {
+        if (this.relief) return actions.setValue(i, this.relief.value(experiment(), i, py / this.#width));
+        const place = board.place(px, py);
+        if (place) actions.move(i, ...place);
+      },
+      get spans() {
+        const [left, right, bottom, top] = experiment().frame;
+        return [right - left, top - bottom] as const;
+      },
+    };
+    this.#handles = new Handles(this.area, board, actions, !first);
+    this.area.prepend(this.canvas);
+    this.element = h(
+      'figure',
+      { class: 'field' },
+      this.area,
+      h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
+    );
+    new ResizeObserver(() => {
+      const width = this.area.clientWidth;
+      if (width === this.#width || width === 0) return;
+      this.#width = width;
+      this.#side = Math.round(width * devicePixelRatio);
+      this.canvas.width = this.canvas.height = this.#side;
+      resized();
+    }).observe(this.area);
+  }
+
+  get side(): number {
+    return this.#side;
+  }
+
+  /** Of the processor's, not the graphics card's: many short lines come out several times sooner, most of all where there is no card. */
+  get context(): CanvasRenderingContext2D {
+    return this.canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
+  }
+
+  name({ name, detail }: Label, slot: number): void {
+    if (this.#name.textContent !== name) this.#name.textContent = name;
+    if (this.#detail.textContent !== detail) this.#detail.textContent = detail;
+    const path = this.element.querySelector<SVGElement>('.swatch path');
+    if (path) path.dataset.slot = String(slot);
+  }
+
+  set stale(stale: boolean) {
+    this.element.toggleAttribute('data-stale', stale);
+  }
+
+  set faded(faded: boolean) {
+    this.element.toggleAttribute('data-faded', faded);
+  }
+
+  /** Colors, lines of equal value, and where the section runs. */
+  paint(size: number, colors: ColorMap, isolines: boolean, section: Line | undefined): void {
+    const context = this.context;
+    const { values } = this.field;
+    if (this.#pixels?.width !== size) {
+      this.#small.width = this.#small.height = size;
+      this.#pixels = new ImageData(size, size);
+      this.#words = new Uint32Array(this.#pixels.data.buffer);
+    }
+    const words = this.#words as Uint32Array;
+    for (let i = 0; i < values.length; i++) words[i] = colors.packed(values[i] as number);
+    this.#small.getContext('2d', { willReadFrequently: true })?.putImageData(this.#pixels as ImageData, 0, 0);
+    context.imageSmoothingQuality = 'high';
+    context.clearRect(0, 0, this.#side, this.#side);
+    context.drawImage(this.#small, 0, 0, this.#side, this.#side);
+    context.lineWidth = Math.max(1, devicePixelRatio * 0.9);
+    if (isolines) {
+      const at = levels(colors.low, colors.high, values);
+      drawIsolines(context, values, size, this.#side, at, (level) =>
+        colors.isLight(level) ? 'rgb(0 0 0 / 42%)' : 'rgb(255 255 255 / 55%)',
+      );
+    }
+    if (section) this.#rule(context, section);
+  }
+
+  points(experiment: Experiment, colors: ColorMap, outliers: readonly number[]): void {
+    this.#handles.draw();
+    for (let i = 0; i < experiment.values.length; i++) {
+      const handle = this.#handles.element(i);
+      handle?.style.setProperty('--fill', colors.css(experiment.values[i] as number));
+      handle?.toggleAttribute('data-outlier', outliers.includes(i));
+    }
+  }
+
+  focusPoint(i: number): void {
+    this.#handles.element(i)?.focus();
+  }
+
+  dispose(): void {
+    this.#handles.dispose();
+    this.element.remove();
+  }
+
+  #rule(context: CanvasRenderingContext2D, { ends: [ax, ay, bx, by] }: Line): void {
+    const side = this.#side;
+    for (const [color, width] of [
+      ['rgb(0 0 0 / 55%)', 3],
+      ['#fff', 1.25],
+    ] as const) {
+      context.beginPath();
+      context.moveTo(ax * side, ay * side);
+      context.lineTo(bx * side, by * side);
+      context.strokeStyle = color;
+      context.lineWidth = width * devicePixelRatio;
+      context.setLineDash([6 * devicePixelRatio, 4 * devicePixelRatio]);
+      context.stroke();
+    }
+    context.setLineDash([]);
+  }
+}

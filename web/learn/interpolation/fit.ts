@@ -1,0 +1,70 @@
+import type { Handlebody, Interpolant, Rbf, RbfReport } from '../../../wasm/ts/index.ts';
+import type { Model } from './experiment.ts';
+import { kindOf, labelOf } from './interpolants.ts';
+import type { Data, Label } from './kind.ts';
+
+/** What can be said of a fit in numbers. */
+export interface Verdict {
+  /** Largest misfit at a point. */
+  readonly misfit: number;
+  readonly report: RbfReport | undefined;
+  /** The kernels' coefficients, one a center; nothing for interpolants without. */
+  readonly coefficients: Float64Array | undefined;
+}
+
+/** A model that is solved. Data or settings that the solver refuses leave the last good interpolant, so that there is a picture. */
+export class Fit {
+  readonly model: Model;
+  label: Label;
+  /** Why the picture is not of the present data and settings. */
+  problem: unknown;
+  verdict: Verdict | undefined;
+  #interpolant: Interpolant | undefined;
+  #misses = new Float64Array();
+
+  constructor(model: Model, dimension: 1 | 2) {
+    this.model = model;
+    this.label = labelOf(model, dimension);
+  }
+
+  /** The last that could be made, if any. */
+  get interpolant(): Interpolant | undefined {
+    return this.#interpolant;
+  }
+
+  /** The interpolant as a sum of kernels, where it is one. */
+  get rbf(): Rbf | undefined {
+    return this.model.kind === 'rbf' ? (this.#interpolant as Rbf | undefined) : undefined;
+  }
+
+  solve(hb: Handlebody, data: Data): void {
+    const { kind, settings } = this.model;
+    this.label = labelOf(this.model, data.dimension);
+    let made: Interpolant | undefined;
+    try {
+      made = kindOf(kind)?.make(hb, data, settings);
+      if (!made) return;
+      this.verdict = this.#judge(made, data);
+      this.#interpolant?.dispose();
+      this.#interpolant = made;
+      this.problem = undefined;
+    } catch (error) {
+      if (made !== this.#interpolant) made?.dispose();
+      this.problem = error;
+    }
+  }
+
+  dispose(): void {
+    this.#interpolant?.dispose();
+    this.#interpolant = undefined;
+  }
+
+  #judge(made: Interpolant, { points, values }: Data): Verdict {
+    if (this.#misses.length !== values.length) this.#misses = new Float64Array(values.length);
+    made.evaluate(points, this.#misses);
+    let misfit = 0;
+    for (let i = 0; i < values.length; i++) misfit = Math.max(misfit, Math.abs((this.#misses[i] ?? 0) - (values[i] ?? 0)));
+    const told = made as Partial<Pick<Rbf, 'report' | 'coefficients'>>;
+    return { misfit, report: told.report?.(), coefficients: told.coefficients?.() };
+  }
+}

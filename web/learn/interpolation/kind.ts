@@ -1,0 +1,27 @@
+import type { Handlebody, Interpolant } from '../../../wasm/ts/index.ts';
+import type { Settings } from './experiment.ts';
+import type { Parameter } from './parameter.ts';
+
+/** Points with a value each, as all interpolants take them. */
+export interface Data {
+  readonly dimension: 1 | 2;
+  readonly points: readonly number[];
+  readonly values: readonly number[];
+}
+
+export interface Label {
+  readonly name: string;
+  /** What tells it from others of its name; may be empty. */
+  readonly detail: string;
+}
+
+/** A kind of interpolant: what it is called, what can be set, how it is made. */
+export interface Kind {
+  readonly id: string;
+  /** The solver's method that makes it. */
+  readonly method: string;
+  readonly dimensions: readonly (1 | 2)[];
+  readonly parameters: readonly Parameter[];
+  label(settings: Settings, dimension: 1 | 2): Label;
+  make(hb: Handlebody, data: Data, settings: Settings): Interpolant;
+}

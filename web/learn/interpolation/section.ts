@@ -1,0 +1,84 @@
+import type { Experiment } from './experiment.ts';
+
+/** A section through the plane. */
+export interface Line {
+  /** Where it begins and ends, as parts of the picture from its upper left corner: x, y, x, y. */
+  readonly ends: readonly [number, number, number, number];
+  /** The same in the data's units. */
+  readonly from: readonly [number, number];
+  readonly to: readonly [number, number];
+  /** What its axis counts: a coordinate, or the distance from the middle. */
+  readonly along: readonly [number, number];
+  readonly title: string;
+}
+
+export function sectionOf({ frame, show }: Experiment): Line | undefined {
+  const [left, right, bottom, top] = frame;
+  const at = show.sectionAt;
+  if (show.section === 'across') {
+    const part = (top - at) / (top - bottom);
+    return {
+      ends: [0, part, 1, part],
+      from: [left, at],
+      to: [right, at],
+      along: [left, right],
+      title: 'Section from left to right',
+    };
+  }
+  if (show.section === 'up') {
+    const part = (at - left) / (right - left);
+    return {
+      ends: [part, 1, part, 0],
+      from: [at, bottom],
+      to: [at, top],
+      along: [bottom, top],
+      title: 'Section from below to above',
+    };
+  }
+  if (show.section === 'diagonal') {
+    const half = Math.hypot(right - left, top - bottom) / 2;
+    return {
+      ends: [0, 1, 1, 0],
+      from: [left, bottom],
+      to: [right, top],
+      along: [-half, half],
+      title: 'Section along the diagonal',
+    };
+  }
+  return undefined;
+}
+
+/** Places on a section, count × 2, and where they are on its axis. */
+export function sectionSamples({ from, to, along }: Line, queries: Float64Array, axis: Float64Array): void {
+  const last = axis.length - 1;
+  for (let i = 0; i <= last; i++) {
+    const t = i / last;
+    queries[2 * i] = from[0] + (to[0] - from[0]) * t;
+    queries[2 * i + 1] = from[1] + (to[1] - from[1]) * t;
+    axis[i] = along[0] + (along[1] - along[0]) * t;
+  }
+}
+
+/** The points that lie on a section, within a fiftieth of the picture: where on its axis, and which. */
+export function pointsOn({ from, to, along }: Line, { points, values, frame }: Experiment): { at: number; point: number }[] {
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const [ux, uy] = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+  return values.flatMap((_, point) => {
+    const [dx, dy] = [(points[2 * point] ?? 0) - from[0], (points[2 * point + 1] ?? 0) - from[1]];
+    if (Math.abs(dx * uy - dy * ux) > (frame[1] - frame[0]) / 50) return [];
+    return [{ at: along[0] + ((along[1] - along[0]) * (dx * ux + dy * uy)) / length, point }];
+  });
+}
+
+/** A range that holds all finite numbers of several rows and a little more, in round steps so that it seldom changes. */
+export function roundRange(rows: readonly Float64Array[], low: number, high: number): [number, number] {
+  let [least, most] = [low, high];
+  for (const row of rows) {
+    for (const value of row) {
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+  }
+  const step = 10 ** Math.floor(Math.log10(most - least)) / 2;
+  return [Math.floor(least / step - 0.1) * step, Math.ceil(most / step + 0.1) * step];
+}

@@ -1,0 +1,170 @@
+import {
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  DoubleSide,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  OrthographicCamera,
+  Scene,
+  SphereGeometry,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { h } from '../../ui/dom.ts';
+import type { ColorMap } from './color-map.ts';
+import { type Experiment, MOST_POINTS } from './experiment.ts';
+import type { Relief } from './view.ts';
+
+/** Height of the color range, where the picture is one wide. */
+const HEIGHT = 0.55;
+
+/** Fields as surfaces over the plane: one renderer draws them all, one after another, and copies each into its own canvas. */
+export class Surfaces implements Relief {
+  /** Sliders that turn and tilt all surfaces alike. */
+  readonly controls: HTMLElement;
+  readonly #renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  readonly #scene = new Scene();
+  readonly #camera = new OrthographicCamera(-0.76, 0.76, 0.76, -0.76, -4, 4);
+  readonly #material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide });
+  readonly #geometry = new BufferGeometry();
+  readonly #mesh = new Mesh(this.#geometry, this.#material);
+  readonly #balls = new InstancedMesh(new SphereGeometry(0.022, 16, 12), new MeshLambertMaterial(), MOST_POINTS);
+  readonly #matrix = new Matrix4();
+  readonly #color = new Color();
+  readonly #place = new Vector3();
+  /** The range of the last picture. */
+  #low = 0;
+  #high = 1;
+  #turn = -35;
+  #tilt = 35;
+  #size = 0;
+
+  constructor(redraw: () => void) {
+    const light = new DirectionalLight(0xffffff, 2.2);
+    light.position.set(-0.5, 1.5, 0.8);
+    this.#scene.add(new AmbientLight(0xffffff, 1.4), light, this.#mesh, this.#balls);
+    this.#balls.frustumCulled = this.#mesh.frustumCulled = false;
+    this.#renderer.domElement.addEventListener('webglcontextrestored', redraw);
+    const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
+      const input = h('input', { type: 'range', min: low, max: high, step: 1, value, oninput: () => change(input.valueAsNumber) });
+      return h('label', {}, h('span', {}, label), input);
+    };
+    this.controls = h(
+      'div',
+      { class: 'turning' },
+      slider('Turn', -180, 180, this.#turn, (value) => {
+        this.#turn = value;
+        redraw();
+      }),
+      slider('Tilt', 0, 90, this.#tilt, (value) => {
+        this.#tilt = value;
+        redraw();
+      }),
+    );
+  }
+
+  paint(
+    context: CanvasRenderingContext2D,
+    values: Float64Array,
+    size: number,
+    colors: ColorMap,
+    experiment: Experiment,
+    cardinal: boolean,
+  ): void {
+    this.#lay(size);
+    const positions = this.#geometry.getAttribute('position') as BufferAttribute;
+    const shades = this.#geometry.getAttribute('color') as BufferAttribute;
+    const { low, high } = colors;
+    [this.#low, this.#high] = [low, high];
+    for (let i = 0; i < values.length; i++) {
+      const value = values[i] as number;
+      // Beyond the range a little further, then cut off.
+      const level = Number.isNaN(value) ? 0 : Math.min(Math.max((value - low) / (high - low), -0.3), 1.3);
+      positions.setY(i, (level - 0.5) * HEIGHT);
+      this.#shade(colors.packed(value));
+      shades.setXYZ(i, this.#color.r, this.#color.g, this.#color.b);
+    }
+    positions.needsUpdate = shades.needsUpdate = true;
+    this.#geometry.computeVertexNormals();
+
+    this.#look();
+    this.#balls.count = cardinal ? 0 : experiment.values.length;
+    for (let i = 0; i < this.#balls.count; i++) {
+      this.#locate(experiment, i, experiment.values[i] ?? 0);
+      this.#balls.setMatrixAt(i, this.#matrix.makeTranslation(this.#place));
+      this.#balls.setColorAt(i, this.#color.set(i === experiment.picked ? 0x1f5fc4 : 0xffffff));
+    }
+    this.#balls.instanceMatrix.needsUpdate = true;
+    if (this.#balls.instanceColor) this.#balls.instanceColor.needsUpdate = true;
+
+    const { width, height } = context.canvas;
+    this.#renderer.setSize(width, height, false);
+    this.#renderer.render(this.#scene, this.#camera);
+    context.clearRect(0, 0, width, height);
+    context.drawImage(this.#renderer.domElement, 0, 0);
+  }
+
+  screen(experiment: Experiment, i: number): readonly [number, number] {
+    return this.#project(experiment, i, experiment.values[i] ?? 0);
+  }
+
+  value(experiment: Experiment, i: number, down: number): number {
+    // Without perspective the height on the screen is linear in the value.
+    const [low, high] = [this.#project(experiment, i, this.#low)[1], this.#project(experiment, i, this.#high)[1]];
+    if (Math.abs(high - low) < 0.02) return experiment.values[i] ?? 0;
+    return this.#low + ((down - low) / (high - low)) * (this.#high - this.#low);
+  }
+
+  #project(experiment: Experiment, i: number, value: number): readonly [number, number] {
+    this.#look();
+    this.#locate(experiment, i, value);
+    this.#place.project(this.#camera);
+    return [(this.#place.x + 1) / 2, (1 - this.#place.y) / 2];
+  }
+
+  /** The place of a point in the scene. */
+  #locate({ frame: [left, right, bottom, top], points }: Experiment, i: number, value: number): void {
+    const [x, y] = [points[2 * i] ?? 0, points[2 * i + 1] ?? 0];
+    const level = (value - this.#low) / (this.#high - this.#low);
+    this.#place.set((x - left) / (right - left) - 0.5, (level - 0.5) * HEIGHT, (top - y) / (top - bottom) - 0.5);
+  }
+
+  #look(): void {
+    const [turn, tilt] = [(this.#turn * Math.PI) / 180, (this.#tilt * Math.PI) / 180];
+    this.#camera.position.set(Math.sin(turn) * Math.cos(tilt), Math.sin(tilt), Math.cos(turn) * Math.cos(tilt));
+    this.#camera.up.set(0, 1, 0);
+    if (this.#tilt === 90) this.#camera.up.set(-Math.sin(turn), 0, -Math.cos(turn));
+    this.#camera.lookAt(0, 0, 0);
+    this.#camera.updateMatrixWorld();
+  }
+
+  #shade(packed: number): void {
+    this.#color.setRGB((packed & 255) / 255, ((packed >> 8) & 255) / 255, ((packed >> 16) & 255) / 255, 'srgb');
+  }
+
+  /** A sheet of size × size vertices over the unit square, rows from the back. */
+  #lay(size: number): void {
+    if (size === this.#size) return;
+    this.#size = size;
+    const positions = new Float32Array(3 * size * size);
+    const triangles = new Uint32Array(6 * (size - 1) ** 2);
+    for (let row = 0, at = 0, corner = 0; row < size; row++) {
+      for (let column = 0; column < size; column++, at++) {
+        positions[3 * at] = (column + 0.5) / size - 0.5;
+        positions[3 * at + 2] = (row + 0.5) / size - 0.5;
+        if (row === size - 1 || column === size - 1) continue;
+        triangles.set([at, at + size, at + 1, at + 1, at + size, at + size + 1], corner);
+        corner += 6;
+      }
+    }
+    this.#geometry.dispose();
+    this.#geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    this.#geometry.setAttribute('color', new BufferAttribute(new Float32Array(3 * size * size), 3));
+    this.#geometry.setIndex(new BufferAttribute(triangles, 1));
+  }
+}
