@@ -71,8 +71,12 @@ describe('natural neighbor interpolation', () => {
     fc.assert(
       fc.property(data, place, (points, [x, y]) => {
         using f = hb.naturalNeighbor(options(points));
-        using turned = hb.naturalNeighbor(options(points.map(({ at: [a, b], value }) => ({ at: [-b, a], value }))));
-        using mirrored = hb.naturalNeighbor(options(points.map(({ at: [a, b], value }) => ({ at: [b, a], value })).reverse()));
+        using turned = hb.naturalNeighbor(
+          options(points.map(({ at: [a, b], value }) => ({ at: [-b, a] as [number, number], value }))),
+        );
+        using mirrored = hb.naturalNeighbor(
+          options(points.map(({ at: [a, b], value }) => ({ at: [b, a] as [number, number], value })).reverse()),
+        );
         const [value = 0] = f.evaluate([x, y]);
         expect(turned.evaluate([-y, x])[0]).toBeCloseTo(value, 10);
         expect(mirrored.evaluate([y, x])[0]).toBeCloseTo(value, 10);
