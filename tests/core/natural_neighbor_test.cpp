@@ -47,7 +47,7 @@ Matrix circle(Index count) {
 }
 
 /** Values that make the answers the weights, and the gradients theirs. */
-NaturalNeighbor cardinal(const Matrix& points, NaturalNeighbor::Outside outside = NaturalNeighbor::Outside::nearest) {
+NaturalNeighbor cardinal(const Matrix& points, OutsideHull outside = OutsideHull::nearest) {
   auto made = NaturalNeighbor::create(points, Matrix::Identity(points.rows(), points.rows()), outside);
   REQUIRE(made);
   return *made;
@@ -121,8 +121,7 @@ TEST_CASE("natural neighbor: MetPy, areas of SciPy's Voronoi cells, and rational
     const Matrix expected = matrix(line, "expected", 1), weights = matrix(line, "weights", points.rows());
     const Matrix gradients = matrix(line, "gradients", 2);
     REQUIRE(queries.rows() > 4);
-    auto f =
-        NaturalNeighbor::create(points, values.rows() ? values : Matrix::Ones(points.rows(), 1), NaturalNeighbor::Outside::nan);
+    auto f = NaturalNeighbor::create(points, values.rows() ? values : Matrix::Ones(points.rows(), 1), OutsideHull::nan);
     REQUIRE(f);
     for (Index q = 0; q < queries.rows(); ++q) {
       const Point query = queries.row(q).transpose();
@@ -254,7 +253,7 @@ TEST_CASE("natural neighbor: the data are interpolated, and have no gradient (se
   std::mt19937 random(seed + 1);
   for (const Matrix& points : {grid(5), circle(9), Matrix(1e6 * random_points(random, 50)), Matrix(random_points(random, 1))}) {
     const Matrix values = random_points(random, points.rows(), 3);
-    for (const auto outside : {NaturalNeighbor::Outside::nearest, NaturalNeighbor::Outside::nan}) {
+    for (const auto outside : {OutsideHull::nearest, OutsideHull::nan}) {
       auto f = NaturalNeighbor::create(points, values, outside);
       REQUIRE(f);
       Matrix found(points.rows(), 3), slopes(points.rows(), 6);
@@ -262,6 +261,13 @@ TEST_CASE("natural neighbor: the data are interpolated, and have no gradient (se
       f->gradient(points.data(), points.rows(), slopes.data());
       CHECK(found == values);
       CHECK(slopes.array().isNaN().all());
+      // As close as 1e-13 diagonals, in the hull and at its corners.
+      const double close = points.rows() > 1 ? 1e-13 * f->data().diagonal : 0;
+      for (const Point& step : {Point(close, 0), Point(-close, 0), Point(0, close), Point(0, -close)})
+        for (Index i = 0; i < points.rows(); ++i) {
+          const Point query = points.row(i).transpose() + step;
+          CHECK(slopes_at(*f, query).array().isNaN().all());
+        }
     }
   }
 }
@@ -348,7 +354,7 @@ TEST_CASE("natural neighbor: nothing jumps at the hull's boundary, and outside a
   for (const Matrix& points :
        {grid(4), turned, far, circle(10), Matrix(random_points(random, 25)), Matrix(random_points(random, 3))}) {
     auto f = cardinal(points);
-    auto nan = cardinal(points, NaturalNeighbor::Outside::nan);
+    auto nan = cardinal(points, OutsideHull::nan);
     NearestInHull hull(points);
     for (int repeat = 0; repeat < 40; ++repeat) {
       const Point query = points.colwise().mean().transpose() + 9 * random_points(random, 1).row(0).transpose();
@@ -402,7 +408,7 @@ TEST_CASE("natural neighbor: points on a line, two, and one") {
     for (Index i = 0; i < 5; ++i) line.row(i) = places[i] * along.transpose();
     values << 7, 1, 2, -3, 4;
     auto f = NaturalNeighbor::create(line, values);
-    auto nan = NaturalNeighbor::create(line, values, NaturalNeighbor::Outside::nan);
+    auto nan = NaturalNeighbor::create(line, values, OutsideHull::nan);
     REQUIRE(f);
     const auto at = [&](NaturalNeighbor& g, double x, double y) {
       const Point query = x * along + y * across;

@@ -13,6 +13,5 @@ extern "C" int32_t hb_natural_neighbor_create(const double* points, const double
                  {"There is no way ", outside, " to answer outside the hull."},
                  {"Use 0 for the nearest point of the hull or 1 for NaN."},
                  HB_CULPRIT_OPTION});
-  return deliver(NaturalNeighbor::create(data.point_rows(), data.value_rows(), static_cast<NaturalNeighbor::Outside>(outside)),
-                 out);
+  return deliver(NaturalNeighbor::create(data.point_rows(), data.value_rows(), static_cast<OutsideHull>(outside)), out);
 }

@@ -14,7 +14,7 @@ constexpr double no_slope = 1e-24;   // and that up to which a point leaves no g
 }  // namespace
 
 Result<NaturalNeighbor> NaturalNeighbor::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
-                                                Outside outside) {
+                                                OutsideHull outside) {
   if (points.cols() != 2)
     return Error(HB_ERROR_INVALID_SHAPE,
                  {"Natural neighbor interpolation works in the plane, not in ", points.cols(), " dimensions."},
@@ -24,7 +24,7 @@ Result<NaturalNeighbor> NaturalNeighbor::create(const Eigen::Ref<const Matrix>& 
   return NaturalNeighbor(std::move(*data), outside);
 }
 
-NaturalNeighbor::NaturalNeighbor(ScatteredData data, Outside outside)
+NaturalNeighbor::NaturalNeighbor(ScatteredData data, OutsideHull outside)
     : Interpolant(std::move(data)),
       outside_(outside),
       per_diagonal_(data_.diagonal > 0 ? 1 / data_.diagonal : 1),
@@ -60,7 +60,7 @@ void NaturalNeighbor::weigh(const double* query, double* w, double* slopes) {
   bool corner = false;
   if (place == Place::open) {
     away = hull_(query, foot, w);
-    if (away > 0 && outside_ == Outside::nan) {
+    if (away > 0 && outside_ == OutsideHull::nan) {
       std::fill(w, w + n, none);
       if (slopes) std::fill(slopes, slopes + 2 * n, none);
       return;

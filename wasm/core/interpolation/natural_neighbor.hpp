@@ -37,19 +37,14 @@ namespace handlebody {
 
 class NaturalNeighbor final : public Interpolant {
  public:
-  enum class Outside {
-    nearest,  // the value at the nearest point of the hull
-    nan,
-  };
-
   /** Fails with INVALID_SHAPE where the points are not in the plane, or the codes of check_data(). */
   static Result<NaturalNeighbor> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
-                                        Outside outside = Outside::nearest);
+                                        OutsideHull outside = OutsideHull::nearest);
 
  private:
   enum class Place { at_point, enclosed, open };
 
-  NaturalNeighbor(ScatteredData data, Outside outside);
+  NaturalNeighbor(ScatteredData data, OutsideHull outside);
 
   void weigh(const double* query, double* w, double* slopes) override;
   void measure(const double* x);
@@ -61,7 +56,7 @@ class NaturalNeighbor final : public Interpolant {
 
   const double* point(Index i) const { return &data_.points(i, 0); }
 
-  Outside outside_;
+  OutsideHull outside_;
   double low_[2], high_[2];  // the points' bounding box
   double per_diagonal_;      // 1 / its diagonal; 1 where that is 0
   NearestInHull hull_;

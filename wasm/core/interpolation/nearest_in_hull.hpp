@@ -14,6 +14,12 @@
 
 namespace handlebody {
 
+/** What an interpolant that lives in the hull answers outside of it. */
+enum class OutsideHull {
+  nearest,  // the value at the nearest point of the hull
+  nan,
+};
+
 class NearestInHull {
  public:
   /** Queries closer to the hull than this part of the diagonal of the points' bounding box (plus 4 ε of the largest coordinate, for

@@ -25,11 +25,6 @@
 
 namespace handlebody {
 
-enum class OutsideHull {
-  nearest,  // the value at the nearest point of the hull
-  nan,
-};
-
 class SimplexLinear final : public Interpolant {
  public:
   /** Fails with the codes of check_data(). Linear in the number of points, but for the search of duplicates. */
