@@ -10,14 +10,14 @@ Interpolant::Interpolant(ScatteredData data)
 
 void Interpolant::evaluate(const double* queries, Index count, double* out) {
   const Index n = data_.points.rows(), m = outputs();
+  const double* const w = w_.data();  // plain memory: this file is compiled for size
   for (Index q = 0; q < count; ++q, queries += dimension(), out += m) {
     weigh(queries, w_.data(), nullptr);
     std::fill(out, out + m, 0.0);
-    for (Index k = 0; k < n; ++k) {
-      const double w = w_[k];
-      if (w == 0) continue;  // most are, for interpolants that look at a few neighbors
-      const double* value = &data_.values(k, 0);
-      for (Index j = 0; j < m; ++j) out[j] += w * value[j];
+    const double* value = data_.values.data();
+    for (Index k = 0; k < n; ++k, value += m) {
+      if (w[k] == 0) continue;  // most are, for interpolants that look at a few neighbors
+      for (Index j = 0; j < m; ++j) out[j] += w[k] * value[j];
     }
   }
 }
@@ -27,9 +27,10 @@ void Interpolant::gradient(const double* queries, Index count, double* out) {
   for (Index q = 0; q < count; ++q, queries += d, out += m * d) {
     weigh(queries, w_.data(), slopes_.data());
     std::fill(out, out + m * d, 0.0);
-    for (Index k = 0; k < n; ++k)
+    const double *value = data_.values.data(), *slope = slopes_.data();
+    for (Index k = 0; k < n; ++k, value += m, slope += d)
       for (Index j = 0; j < m; ++j)
-        for (Index axis = 0; axis < d; ++axis) out[j * d + axis] += data_.values(k, j) * slopes_(k, axis);
+        for (Index axis = 0; axis < d; ++axis) out[j * d + axis] += value[j] * slope[axis];
   }
 }
 

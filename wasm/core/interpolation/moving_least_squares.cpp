@@ -90,7 +90,6 @@ MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSqua
   monomials_.resize(count);
   right_.resize(count);
   gradients_.resize(count, d);
-  moments_.resize(count, d);
 }
 
 double MovingLeastSquares::width() const {
@@ -116,17 +115,19 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
   farthest_ = -1;
   if (options_.weight == MovingWeight::wendland) widen();
   set_roots();
+  // Plain loops over plain memory, here and below: this file is compiled for size.
+  double *const roots = roots_.data(), *const solution = solution_.data();
+  std::uint32_t* const point_of = rows_.data();
   Index rows = 0;
   for (Index k = 0; k < n; ++k) {
-    if (!(roots_[k] > least_root)) continue;
-    roots_[rows] = roots_[k];
-    rows_[static_cast<std::size_t>(rows++)] = static_cast<std::uint32_t>(k);
+    if (!(roots[k] > least_root)) continue;
+    roots[rows] = roots[k];
+    point_of[rows++] = static_cast<std::uint32_t>(k);
   }
   qr_.reset(rows);
   for (Index row = 0; row < rows; ++row) {
-    set_monomials(rows_[static_cast<std::size_t>(row)]);
-    qr_.set_scale(row, roots_[row]);
-    for (Index j = 0; j < monomials_.size(); ++j) qr_(row, j) = roots_[row] * monomials_[j];
+    set_monomials(point_of[row]);
+    qr_.set_row(row, roots[row], monomials_.data());
   }
   int degree = -1;
   while (degree < options_.degree && qr_.extend(polynomial_count(degree + 1, d))) ++degree;
@@ -135,8 +136,8 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
   for (Index axis = 0; axis < d; ++axis) offset_[axis] = (query[axis] - data_.points(own_, axis)) / unit_;
   if (!singular) {
     polynomial_values(offset_.data(), d, degree, monomials_.data());
-    qr_.solve_transposed(monomials_.data(), solution_.data());
-    for (Index row = 0; row < rows; ++row) w[rows_[static_cast<std::size_t>(row)]] = roots_[row] * solution_[row];
+    qr_.solve_transposed(monomials_.data(), solution);
+    for (Index row = 0; row < rows; ++row) w[point_of[row]] = roots[row] * solution[row];
   }
   if (slopes) set_slopes(query, degree, w, slopes);
 }
@@ -147,54 +148,58 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
  *
  * Near a point its own g is as steep as p/r and all but cancels, so its slope is taken from Σₖ∇ψₖ = 0. */
 void MovingLeastSquares::set_slopes(const double* query, int degree, const double* w, double* slopes) {
-  const Index d = dimension(), count = qr_.rank();
-  polynomial_gradients(offset_.data(), d, degree, gradients_.data());
-  // ∇h, where h follows a point, its distance over the margin.
+  const Index d = dimension(), count = qr_.rank(), rows = qr_.rows();
+  const std::uint32_t* const point_of = rows_.data();
+  const double *const roots = roots_.data(), *const distances = distances_.data(), *const monomials = monomials_.data();
+  double *const gradients = gradients_.data(), *const direction = direction_.data(), *const stretch = offset_.data();
+  double *const right = right_.data(), *const solution = solution_.data();
+
+  polynomial_gradients(offset_.data(), d, degree, gradients);
   if (farthest_ < 0 || !set_direction(query, farthest_)) direction_.setZero();
-  offset_ = direction_ / margin;
-  moments_.setZero();
-  const auto rows = static_cast<std::size_t>(qr_.rows());
-  for (std::size_t row = 0; row < rows; ++row) {
-    const Index k = rows_[row];
+  for (Index axis = 0; axis < d; ++axis) stretch[axis] = direction[axis] / margin;  // ∇h, where h follows a point
+  for (Index row = 0; row < rows; ++row) {
+    const Index k = point_of[row];
     if (!set_direction(query, k)) direction_.setZero();
     set_monomials(k);
-    const double steep = w[k] * steepness(distances_[k]), s = distances_[k] / reach_;
+    const double steep = w[k] * steepness(distances[k]), s = distances[k] / reach_;
     for (Index axis = 0; axis < d; ++axis) {
-      const double g = steep * (direction_[axis] - s * offset_[axis]);
+      const double g = steep * (direction[axis] - s * stretch[axis]);
       slopes[k * d + axis] = g;
-      for (Index j = 0; j < count; ++j) moments_(j, axis) += g * monomials_[j];
+      for (Index j = 0; j < count; ++j) gradients[j * d + axis] -= g * monomials[j];
     }
   }
   for (Index axis = 0; axis < d; ++axis) {
-    for (Index j = 0; j < count; ++j) right_[j] = gradients_(j, axis) - moments_(j, axis);
-    qr_.solve_transposed(right_.data(), solution_.data());
+    for (Index j = 0; j < count; ++j) right[j] = gradients[j * d + axis];
+    qr_.solve_transposed(right, solution);
     double others = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      double& slope = slopes[rows_[row] * d + axis];
-      slope = (slope + roots_[static_cast<Index>(row)] * solution_[static_cast<Index>(row)]) / unit_;
-      if (static_cast<Index>(rows_[row]) != own_) others += slope;
+    for (Index row = 0; row < rows; ++row) {
+      const Index k = point_of[row];
+      double& slope = slopes[k * d + axis];
+      slope = (slope + roots[row] * solution[row]) / unit_;
+      if (k != own_) others += slope;
     }
     slopes[own_ * d + axis] = -others;
   }
 }
 
 void MovingLeastSquares::find_distances(const double* query) {
-  const Index n = data_.points.rows();
+  const Index n = data_.points.rows(), d = dimension();
+  const double* point = data_.points.data();
+  double* const distances = distances_.data();
   own_ = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  second_ = nearest;
-  for (Index k = 0; k < n; ++k) {
-    const double r = std::min(safe_distance(query, &data_.points(k, 0), dimension()) / unit_, huge);
-    distances_[k] = r;
+  double nearest = std::numeric_limits<double>::infinity(), second = nearest;
+  for (Index k = 0; k < n; ++k, point += d) {
+    const double r = std::min(safe_distance(query, point, d) / unit_, huge);
+    distances[k] = r;
     if (r < nearest) {
-      second_ = nearest;
+      second = nearest;
       nearest = r;
       own_ = k;
-    } else {
-      second_ = std::min(second_, r);
+    } else if (r < second) {
+      second = r;
     }
   }
-  if (n == 1) second_ = in_range(nearest);
+  second_ = n == 1 ? in_range(nearest) : second;
 }
 
 /** Compact support: h grows where too few points are well inside. */
@@ -216,21 +221,22 @@ void MovingLeastSquares::widen() {
 /** √w of every point, relative to the nearest; singular ones to the second nearest. */
 void MovingLeastSquares::set_roots() {
   const Index n = distances_.size();
-  const double nearest = distances_[own_], one_over_reach = 1 / reach_;
+  const double* const r = distances_.data();
+  double* const roots = roots_.data();
+  const double nearest = r[own_], one_over_reach = 1 / reach_;
   if (options_.weight == MovingWeight::inverse_distance) {
-    const double second = second_ + epsilon_;
-    for (Index k = 0; k < n; ++k) roots_[k] = distances_[k] + epsilon_;
-    roots_[own_] = second;
-    inverse_powers(roots_.data(), n, second, options_.power / 2);
-    roots_[own_] = std::exp(std::min(options_.power / 2 * std::log(second / (nearest + epsilon_)), largest_exponent));
+    const double second = second_ + epsilon_, half = options_.power / 2;
+    for (Index k = 0; k < n; ++k) roots[k] = r[k] + epsilon_;
+    roots[own_] = second;
+    inverse_powers(roots, n, second, half);
+    roots[own_] = std::exp(std::min(half * std::log(second / (nearest + epsilon_)), largest_exponent));
   } else if (options_.weight == MovingWeight::gaussian) {
-    for (Index k = 0; k < n; ++k)
-      roots_[k] = (distances_[k] - nearest) * one_over_reach * ((distances_[k] + nearest) * one_over_reach) / 2;
-    decaying_exponentials(roots_.data(), n);
+    for (Index k = 0; k < n; ++k) roots[k] = (r[k] - nearest) * one_over_reach * ((r[k] + nearest) * one_over_reach) / 2;
+    decaying_exponentials(roots, n);
   } else {
     for (Index k = 0; k < n; ++k) {
-      const double s = distances_[k] * one_over_reach;
-      roots_[k] = s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
+      const double s = r[k] * one_over_reach;
+      roots[k] = s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
     }
   }
 }
@@ -245,17 +251,22 @@ double MovingLeastSquares::steepness(double r) const {
 
 /** p(xₖ), with the origin at the nearest point. */
 void MovingLeastSquares::set_monomials(Index point) {
-  const double *x = &data_.points(point, 0), *origin = &data_.points(own_, 0), one_over_unit = 1 / unit_;
-  for (Index axis = 0; axis < dimension(); ++axis) difference_[axis] = (x[axis] - origin[axis]) * one_over_unit;
-  polynomial_values(difference_.data(), dimension(), options_.degree, monomials_.data());
+  const Index d = dimension();
+  const double *const x = data_.points.data() + point * d, *const origin = data_.points.data() + own_ * d;
+  const double one_over_unit = 1 / unit_;
+  double* const difference = difference_.data();
+  for (Index axis = 0; axis < d; ++axis) difference[axis] = (x[axis] - origin[axis]) * one_over_unit;
+  polynomial_values(difference, d, options_.degree, monomials_.data());
 }
 
 /** The unit vector from a point to the query, 0 from infinitely far; false where the query is the point. */
 bool MovingLeastSquares::set_direction(const double* query, Index point) {
-  const double* x = &data_.points(point, 0);
-  const double r = safe_distance(query, x, dimension());
+  const Index d = dimension();
+  const double* const x = data_.points.data() + point * d;
+  const double r = safe_distance(query, x, d);
   if (!(r > 0)) return false;
-  for (Index axis = 0; axis < dimension(); ++axis) direction_[axis] = std::isfinite(r) ? (query[axis] - x[axis]) / r : 0;
+  double* const direction = direction_.data();
+  for (Index axis = 0; axis < d; ++axis) direction[axis] = std::isfinite(r) ? (query[axis] - x[axis]) / r : 0;
   return true;
 }
 

@@ -82,7 +82,7 @@ class MovingLeastSquares final : public Interpolant {
   Vector offset_, right_, solution_;  // scratch: d, q, n
   Vector difference_, monomials_;     // of set_monomials()
   Vector direction_;                  // of set_direction()
-  Matrix gradients_, moments_;        // of set_slopes(), q×d
+  Matrix gradients_;                  // of set_slopes(), q×d
   Numbers nearest_;                   // of widen()
 };
 

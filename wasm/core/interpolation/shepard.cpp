@@ -31,14 +31,15 @@ Result<Shepard> Shepard::create(const Eigen::Ref<const Matrix>& points, const Ei
 void Shepard::weigh(const double* query, double* w, double* slopes) {
   const Index n = data_.points.rows(), d = dimension();
   const double p = options_.power, unit = data_.diagonal > 0 ? data_.diagonal : 1;  // of all lengths below
+  const double* const points = data_.points.data();                                 // plain memory: this file is compiled for size
   double nearest = std::numeric_limits<double>::infinity();
   Index own = 0;
   for (Index k = 0; k < n; ++k) {
-    w[k] = std::min((safe_distance(query, &data_.points(k, 0), d) + options_.epsilon) / unit, huge);
+    w[k] = std::min((safe_distance(query, points + k * d, d) + options_.epsilon) / unit, huge);
     if (w[k] < nearest) nearest = w[own = k];
   }
   if (slopes) std::fill(slopes, slopes + n * d, 0.0);
-  const bool at_point = safe_distance(query, &data_.points(own, 0), d) == 0;
+  const bool at_point = safe_distance(query, points + own * d, d) == 0;
   if (slopes && data_.diagonal > 0 && at_point && (p <= 1 || nearest > 0)) {
     std::fill(slopes, slopes + n * d, std::numeric_limits<double>::quiet_NaN());
     slopes = nullptr;
@@ -50,7 +51,7 @@ void Shepard::weigh(const double* query, double* w, double* slopes) {
   }
   if (slopes)  // ∇ ln wₖ = −p/(r + ε) · (x − xₖ)/r
     for (Index k = 0; k < n; ++k) {
-      const double* point = &data_.points(k, 0);
+      const double* point = points + k * d;
       const double r = safe_distance(query, point, d), steepness = std::min(p / w[k], huge);
       for (Index axis = 0; r > 0 && std::isfinite(r) && axis < d; ++axis)
         slopes[k * d + axis] = -steepness * ((query[axis] - point[axis]) / r);

@@ -29,6 +29,11 @@ void GradedQr::reset(Index rows) {
   std::iota(column_of_.begin(), column_of_.end(), 0u);
 }
 
+void GradedQr::set_row(Index row, double scale, const double* numbers) {
+  one_over_scale_[row] = 1 / scale;
+  for (Index j = 0; j < a_.cols(); ++j) a_(row, j) = scale * numbers[j];
+}
+
 bool GradedQr::extend(Index end) {
   for (Index j = rank_; j < end; ++j) {
     size_[j] = 0;

@@ -13,10 +13,10 @@ class GradedQr {
  public:
   GradedQr(Index most_rows, Index columns);
 
-  /** Begins another matrix A of `rows` rows. All its elements must then be set, and how large each row is in all, above 1e-250. */
+  /** Begins another matrix A of `rows` rows, all of which must then be set: each to scale · numbers (columns), with a scale above
+   * 1e-250 that says how large the row is in all. */
   void reset(Index rows);
-  double& operator()(Index row, Index column) { return a_(row, column); }
-  void set_scale(Index row, double scale) { one_over_scale_[row] = 1 / scale; }
+  void set_row(Index row, double scale, const double* numbers);
 
   /** Factors further columns, up to `end`, in any order among themselves. False, and nothing done, where one of them depends on the
    *  others to 1e-10: where what is left of it, divided by the rows' scales, is nowhere above that part of what it was at most. */
