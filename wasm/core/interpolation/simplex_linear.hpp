@@ -44,19 +44,19 @@ class SimplexLinear final : public Interpolant {
   SimplexLinear(ScatteredData data, OutsideHull outside, Frame frame);
 
   void weigh(const double* query, double* w, double* slopes) override;
-  bool weigh_cell(double* w);
+  bool weigh_cell(double inward, double* w);
 
   OutsideHull outside_;
-  Vector center_;  // d: the mean of the points
-  double scale_;   // their diagonal; 1 where that is 0
-  Matrix axes_;    // r×d, orthonormal: of the span; 0×d where that is the whole space
-  Matrix points_;  // n×r: in the frame of center, scale and axes
+  Vector center_;    // d: the mean of the points
+  double scale_;     // their diagonal; 1 where that is 0
+  Matrix axes_;      // r×d, orthonormal: of the span; 0×d where that is the whole space
+  Matrix points_;    // n×r: in the frame of center, scale and axes
   double radius_;    // no point is farther from the center
   double rounding_;  // of the coordinates as given, diagonals
   DelaunayCell cell_;
   LeastNormWeights least_norm_;
   NearestInHull hull_;
-  Vector offset_;  // d: the query from the center
+  Vector offset_;  // d: the query from the center; scratch
   Vector place_;   // r: the query in the frame
 };
 
