@@ -173,7 +173,7 @@ bool DelaunayCell::find(const double* place) {
   }
   std::uint32_t* start = &starts_[static_cast<std::size_t>(nearest) * basis_.size()];
   if (*start == none) {
-    measure(&points_(nearest, 0));
+    measure(points_.data() + nearest * points_.cols());
     basis_ = root_;
     walk();  // wherever it ends is an empty simplex
     std::copy(basis_.begin(), basis_.end(), start);

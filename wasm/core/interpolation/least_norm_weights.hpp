@@ -22,7 +22,7 @@ class LeastNormWeights {
   LeastNormWeights(Index most, Index dimension);
 
   /** Where to write the coordinates of point i, relative to the place. */
-  double* point(Index i) { return &points_(i, 0); }
+  double* point(Index i) { return points_.data() + i * points_.cols(); }
 
   /** The weights of points 0 … `count` − 1, which span the space unless there is just one. False, and no weights, where the place
    * is outside their hull by more than 1e-9 as weights go. Steps O(count · d) each, as many as points are let go of, and in all no

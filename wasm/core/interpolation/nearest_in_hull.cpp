@@ -156,7 +156,7 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
     std::uint32_t entering = 0;
     bool found = false;
     for (Index i = 0; i < n; ++i) {
-      const double height = dot(across_.data(), &points_(i, 0), d);
+      const double height = dot(across_.data(), points_.data() + i * d, d);
       if (!(height > highest)) continue;
       highest = height;
       entering = static_cast<std::uint32_t>(i);
