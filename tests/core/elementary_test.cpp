@@ -51,3 +51,21 @@ TEST_CASE("decaying exponentials are the C library's to a relative error of 1e-1
   decaying_exponentials(&at_zero, 1);
   CHECK(at_zero == 1);
 }
+
+TEST_CASE("inverse powers, whole and broken, agree with the C library's") {
+  for (const double p : {0.3, 1.0, 2.0, 2.5, 4.0, 7.0, 16.0, 16.5, 300.0, 1e308}) {
+    const double least = 3e-7;
+    std::vector<double> x = {least, least * 1.0000001, 4e-7, 1e-6, 0.1, 1, 77, 1e9, 1e300}, expected;
+    for (const double value : x) expected.push_back(std::pow(least / value, p));
+    std::vector<double> found = x;
+    inverse_powers(found.data(), static_cast<Index>(found.size()), least, p);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      CAPTURE(p);
+      CAPTURE(x[i]);
+      if (expected[i] < 1e-300)
+        CHECK(found[i] < 1e-299);
+      else
+        CHECK(std::abs(found[i] / expected[i] - 1) < 1e-15 * (1 + p + p * std::log(x[i] / least)));
+    }
+  }
+}

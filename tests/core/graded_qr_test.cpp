@@ -15,7 +15,7 @@ namespace {
 void fill(GradedQr& qr, const Matrix& a, const Vector& scale) {
   qr.reset(a.rows());
   for (Index i = 0; i < a.rows(); ++i) {
-    qr.scale(i) = scale[i];
+    qr.set_scale(i, scale[i]);
     for (Index j = 0; j < a.cols(); ++j) qr(i, j) = scale[i] * a(i, j);
   }
 }

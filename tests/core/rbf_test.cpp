@@ -5,13 +5,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "oracle_lines.hpp"
 
 using namespace handlebody;
 
@@ -42,21 +42,6 @@ RbfOptions plain(const Kernel& kernel, int degree, bool normalized = false) {
 /** A fit for its weights: the values do not matter. */
 Result<Rbf> fit(const Matrix& places, const RbfOptions& options) {
   return Rbf::create(places, Matrix::Zero(places.rows(), 1), options);
-}
-
-/** The numbers of `"key": 1.5` or `"key": [1, 2, 3]` in `line`. The oracle file is our own: no more of JSON is needed. */
-std::vector<double> numbers(const std::string& line, const std::string& key) {
-  std::vector<double> found;
-  const std::size_t start = line.find('"' + key + "\": ");
-  if (start == std::string::npos) return found;
-  const char* at = line.c_str() + start + key.size() + 4;
-  const bool list = *at == '[';
-  if (list) ++at;
-  for (char* end = nullptr; *at != ']'; at = end + std::strspn(end, ", ")) {
-    found.push_back(std::strtod(at, &end));
-    if (!list || end == at) break;
-  }
-  return found;
 }
 
 Matrix matrix_of(const std::vector<double>& values, Index columns) {
@@ -100,16 +85,16 @@ TEST_CASE("RBF interpolation agrees with SciPy's RBFInterpolator and a textbook 
   int cases = 0;
   while (std::getline(file, line)) {
     if (line.size() < 3) continue;
-    const auto kind = static_cast<KernelKind>(static_cast<unsigned>(numbers(line, "kernel").at(0)));
-    RbfOptions options = plain({kind, numbers(line, "width").at(0)}, static_cast<int>(numbers(line, "degree").at(0)),
-                               numbers(line, "normalized").at(0) != 0);
-    const auto dimension = static_cast<Index>(numbers(line, "dimension").at(0));
-    const auto widths = numbers(line, "widths");
+    const auto kind = static_cast<KernelKind>(static_cast<unsigned>(oracle_numbers(line, "kernel").at(0)));
+    RbfOptions options = plain({kind, oracle_numbers(line, "width").at(0)}, static_cast<int>(oracle_numbers(line, "degree").at(0)),
+                               oracle_numbers(line, "normalized").at(0) != 0);
+    const auto dimension = static_cast<Index>(oracle_numbers(line, "dimension").at(0));
+    const auto widths = oracle_numbers(line, "widths");
     options.basis.widths = Eigen::Map<const Vector>(widths.data(), static_cast<Index>(widths.size()));
-    const Matrix points = matrix_of(numbers(line, "points"), dimension);
-    const Matrix values = matrix_of(numbers(line, "values"), 1);
-    const Matrix queries = matrix_of(numbers(line, "queries"), dimension);
-    const Matrix expected = matrix_of(numbers(line, "expected"), 1);
+    const Matrix points = matrix_of(oracle_numbers(line, "points"), dimension);
+    const Matrix values = matrix_of(oracle_numbers(line, "values"), 1);
+    const Matrix queries = matrix_of(oracle_numbers(line, "queries"), dimension);
+    const Matrix expected = matrix_of(oracle_numbers(line, "expected"), 1);
     CAPTURE(cases);
     REQUIRE(values.rows() == points.rows());
     REQUIRE(queries.rows() == expected.rows());

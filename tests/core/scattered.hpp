@@ -5,34 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/interpolation/interpolant.hpp"
+#include "oracle_lines.hpp"
 
 namespace handlebody::test {
+
+inline std::vector<double> numbers(const std::string& line, const std::string& key) {
+  return oracle_numbers(line, key);
+}
 
 inline Matrix random_points(std::mt19937& random, Index count, Index dimension) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   return Matrix::NullaryExpr(count, dimension, [&] { return uniform(random); });
-}
-
-/** The numbers of `"key": 1.5` or `"key": [1, 2, 3]` in `line`. The oracle files are our own: no more of JSON is needed. */
-inline std::vector<double> numbers(const std::string& line, const std::string& key) {
-  std::vector<double> found;
-  const std::size_t start = line.find('"' + key + "\": ");
-  if (start == std::string::npos) return found;
-  const char* at = line.c_str() + start + key.size() + 4;
-  const bool list = *at == '[';
-  if (list) ++at;
-  for (char* end = nullptr; *at != ']'; at = end + std::strspn(end, ", ")) {
-    found.push_back(std::strtod(at, &end));
-    if (!list || end == at) break;
-  }
-  return found;
 }
 
 inline Matrix matrix_of(const std::vector<double>& values, Index columns) {

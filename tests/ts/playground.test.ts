@@ -60,7 +60,7 @@ describe('presets', () => {
       expect(placeOf(experiment, i)).toEqual(before);
     }
     for (const model of experiment.models) {
-      if (!isOffered(hb, model.kind, experiment.dimension)) continue;
+      expect(isOffered(model.kind, experiment.dimension)).toBe(true);
       const fit = new Fit(model, experiment.dimension);
       fit.solve(hb, dataOf(experiment));
       expect(fit.problem).toBeUndefined();

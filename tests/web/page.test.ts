@@ -1,42 +1,14 @@
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import type { Browser, Page } from 'playwright-core';
+import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
 import { ball, glb, poseGlb } from './support/files.ts';
+import { cramped, violations } from './support/manners.ts';
 import { difference, distance, frames, launch, openFile, PHONE, picture, settled, soon, surface, visit } from './support/studio.ts';
-
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 let browser: Browser;
 beforeAll(async () => {
   browser = await launch();
 });
 afterAll(() => browser.close());
-
-async function violations(page: Page): Promise<string[]> {
-  await page.evaluate(axe);
-  return page.evaluate(async () => {
-    const { run } = (globalThis as unknown as { axe: typeof import('axe-core') }).axe;
-    return (await run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.target.join(' ')).join(', ')}`);
-  });
-}
-
-/** Controls smaller than 24 px, and whether the page is wider than its window. */
-async function cramped(page: Page): Promise<string[]> {
-  return page.evaluate(() => {
-    const small = [...document.querySelectorAll<HTMLElement>('button, input:not(.unseen), a, label:has(input)')].filter(
-      (control) => {
-        const { width, height } = control.getBoundingClientRect();
-        return width > 0 && (width < 24 || height < 24);
-      },
-    );
-    const { scrollWidth, clientWidth } = document.documentElement;
-    return [
-      ...small.map((control) => control.outerHTML.slice(0, 80)),
-      ...(scrollWidth > clientWidth ? ['the page overflows sideways'] : []),
-    ];
-  });
-}
 
 describe.each([
   ['desktop, light', { colorScheme: 'light' as const }],

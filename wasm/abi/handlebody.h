@@ -178,6 +178,11 @@ HB_API int32_t hb_shepard_create(const double* points, const double* values, uin
  * INVALID_OPTION or OUT_OF_MEMORY. */
 HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
 
+/* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
+ * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
+ * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
+HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
+
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
@@ -257,6 +262,10 @@ HB_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* ou
 HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
 
 HB_API void hb_discrete_green_free(hb_discrete_green* green);
+
+/* Natural neighbor interpolation (Sibson) of points in the plane: INVALID_SHAPE for another dimension than 2. `outside` the convex hull
+ * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */
+HB_API int32_t hb_natural_neighbor_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
 
 #ifdef __cplusplus
 }

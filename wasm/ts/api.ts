@@ -19,11 +19,14 @@ export {
   type MovingLeastSquaresOptions,
   type MovingWeight,
 } from './moving-least-squares.ts';
+export { NATURAL_NEIGHBOR_DEFAULTS, NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
+export type { OutsideHull } from './outside-hull.ts';
 export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 export { Rbf } from './rbf.ts';
 export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
 export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
+export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export type * from './types.ts';

@@ -6,11 +6,13 @@ import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
+import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
 import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
 import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
@@ -59,6 +61,16 @@ export class Handlebody {
   /** Points that a radial basis interpolant has to bend for. */
   findOutliers(options: OutlierOptions): OutlierReport {
     return findOutliers(this.#heap, options);
+  }
+
+  /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
+  }
+
+  /** Sibson's natural neighbor interpolation of scattered data in the plane. */
+  naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
+    return new NaturalNeighbor(this.#heap, options);
   }
 
   /** Shepard's inverse-distance weighting of scattered data. */

@@ -135,7 +135,7 @@ Result<DiscreteGreen> DiscreteGreen::create(Index size, int order, GridBoundary 
                  {"Give at least ", std::max<Index>(nullity, 1), nullity > 1 ? " samples." : "."});
   std::vector<Index> given(static_cast<std::size_t>(size), -1);
   for (Index k = 0; k < count; ++k) {
-    if (samples[k] >= size)
+    if (static_cast<Index>(samples[k]) >= size)
       return Error(HB_ERROR_INVALID_OPTION, {"Sample ", k, " is at ", samples[k], ", outside the grid."},
                    {"Use 0 to ", size - 1, "."}, HB_CULPRIT_POINT, k);
     if (!std::isfinite(values[k]))

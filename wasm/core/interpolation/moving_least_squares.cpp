@@ -8,6 +8,7 @@
 
 #include "core/interpolation/polynomial.hpp"
 #include "core/numerics/dense.hpp"
+#include "core/numerics/elementary.hpp"
 
 namespace handlebody {
 namespace {
@@ -51,7 +52,10 @@ Result<MovingLeastSquares> MovingLeastSquares::create(const Eigen::Ref<const Mat
   if (static_cast<double>(data->points.rows()) * static_cast<double>(count) > 1 << 26)
     return Error(HB_ERROR_OUT_OF_MEMORY, {data->points.rows(), " points and ", count, " polynomials take more than 512 MiB."},
                  {"Use a lower degree or fewer points."});
-  const Matrix inner = (data->points.rowwise() - data->points.row(0)) / (data->diagonal > 0 ? data->diagonal : 1);
+  Matrix inner = data->points;
+  for (Index i = 0; i < inner.rows(); ++i)
+    for (Index axis = 0; axis < inner.cols(); ++axis)
+      inner(i, axis) = (inner(i, axis) - data->points(0, axis)) / (data->diagonal > 0 ? data->diagonal : 1);
   if (auto unisolvent = check_unisolvent(inner, options.degree); !unisolvent) return unisolvent.error();
   return MovingLeastSquares(std::move(*data), options);
 }
@@ -111,17 +115,17 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
   reach_ = in_range(width_ / unit_);
   farthest_ = -1;
   if (options_.weight == MovingWeight::wendland) widen();
+  set_roots();
   Index rows = 0;
   for (Index k = 0; k < n; ++k) {
-    const double root = root_weight(distances_[k]);
-    if (!(root > least_root)) continue;
-    roots_[rows] = root;
+    if (!(roots_[k] > least_root)) continue;
+    roots_[rows] = roots_[k];
     rows_[static_cast<std::size_t>(rows++)] = static_cast<std::uint32_t>(k);
   }
   qr_.reset(rows);
   for (Index row = 0; row < rows; ++row) {
     set_monomials(rows_[static_cast<std::size_t>(row)]);
-    qr_.scale(row) = roots_[row];
+    qr_.set_scale(row, roots_[row]);
     for (Index j = 0; j < monomials_.size(); ++j) qr_(row, j) = roots_[row] * monomials_[j];
   }
   int degree = -1;
@@ -168,7 +172,7 @@ void MovingLeastSquares::set_slopes(const double* query, int degree, const doubl
     for (std::size_t row = 0; row < rows; ++row) {
       double& slope = slopes[rows_[row] * d + axis];
       slope = (slope + roots_[static_cast<Index>(row)] * solution_[static_cast<Index>(row)]) / unit_;
-      if (rows_[row] != own_) others += slope;
+      if (static_cast<Index>(rows_[row]) != own_) others += slope;
     }
     slopes[own_ * d + axis] = -others;
   }
@@ -209,16 +213,26 @@ void MovingLeastSquares::widen() {
   reach_ = distances_[farthest_] / margin;
 }
 
-/** √w, of the largest or second largest: singular weights are relative to the second nearest point. */
-double MovingLeastSquares::root_weight(double r) const {
-  if (options_.weight == MovingWeight::inverse_distance)
-    return std::exp(std::min(options_.power / 2 * std::log((second_ + epsilon_) / (r + epsilon_)), largest_exponent));
-  if (options_.weight == MovingWeight::gaussian) {
-    const double nearest = distances_[own_];
-    return std::exp(-(r - nearest) / reach_ * ((r + nearest) / reach_) / 2);
+/** √w of every point, relative to the nearest; singular ones to the second nearest. */
+void MovingLeastSquares::set_roots() {
+  const Index n = distances_.size();
+  const double nearest = distances_[own_], one_over_reach = 1 / reach_;
+  if (options_.weight == MovingWeight::inverse_distance) {
+    const double second = second_ + epsilon_;
+    for (Index k = 0; k < n; ++k) roots_[k] = distances_[k] + epsilon_;
+    roots_[own_] = second;
+    inverse_powers(roots_.data(), n, second, options_.power / 2);
+    roots_[own_] = std::exp(std::min(options_.power / 2 * std::log(second / (nearest + epsilon_)), largest_exponent));
+  } else if (options_.weight == MovingWeight::gaussian) {
+    for (Index k = 0; k < n; ++k)
+      roots_[k] = (distances_[k] - nearest) * one_over_reach * ((distances_[k] + nearest) * one_over_reach) / 2;
+    decaying_exponentials(roots_.data(), n);
+  } else {
+    for (Index k = 0; k < n; ++k) {
+      const double s = distances_[k] * one_over_reach;
+      roots_[k] = s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
+    }
   }
-  const double s = r / reach_;
-  return s < 1 ? (1 - s) * (1 - s) * std::sqrt(4 * s + 1) : 0;
 }
 
 /** d ln w / dr */
@@ -231,8 +245,8 @@ double MovingLeastSquares::steepness(double r) const {
 
 /** p(xₖ), with the origin at the nearest point. */
 void MovingLeastSquares::set_monomials(Index point) {
-  for (Index axis = 0; axis < dimension(); ++axis)
-    difference_[axis] = (data_.points(point, axis) - data_.points(own_, axis)) / unit_;
+  const double *x = &data_.points(point, 0), *origin = &data_.points(own_, 0), one_over_unit = 1 / unit_;
+  for (Index axis = 0; axis < dimension(); ++axis) difference_[axis] = (x[axis] - origin[axis]) * one_over_unit;
   polynomial_values(difference_.data(), dimension(), options_.degree, monomials_.data());
 }
 

@@ -20,8 +20,7 @@
 //   - `wendland` widens where fewer than 2q points (q polynomials) are within 0.8 h: h becomes 1.25 times the distance of the
 //   2q-th;
 //   - where the points of any weight still do not determine the polynomial (to 1e-10 of their extent: on one line, say), the degree
-//   falls
-//     to one that they do. Weights below 1e-400 of the largest, as of Gaussians beyond 30 widths, are none.
+//     falls to one that they do. Weights below 1e-400 of the largest, as of Gaussians beyond 30 widths, are none.
 // So there is a value everywhere, continuous but where the degree changes. Of degree 1 and 2 values grow far away like the
 // polynomials, and are finite within 1e100 diagonals of the data.
 #pragma once
@@ -40,7 +39,7 @@ struct MovingLeastSquaresOptions {
   double power = 4;    // p > 0, of inverse distances
   double epsilon = 0;  // ε ≥ 0, likewise, in units of the points
   double width = 0;    // h > 0 of the others, in units of the points; 0: 2 + degree mean distances to the nearest neighbor, twice
-                     // that for wendland, where h is the end and not the middle of the weight
+                       // that for wendland, where h is the end and not the middle of the weight
 };
 
 class MovingLeastSquares final : public Interpolant {
@@ -61,7 +60,7 @@ class MovingLeastSquares final : public Interpolant {
 
   void find_distances(const double* query);
   void widen();
-  double root_weight(double r) const;
+  void set_roots();
   double steepness(double r) const;
   void set_monomials(Index point);
   bool set_direction(const double* query, Index point);
@@ -79,7 +78,7 @@ class MovingLeastSquares final : public Interpolant {
   double reach_ = 1;                  // h here
   Index farthest_ = -1;               // the point that h follows, where it widens
   Numbers rows_;                      // the point of each row
-  Vector roots_;                      // √w of each row
+  Vector roots_;                      // √w of each point, then of each row
   Vector offset_, right_, solution_;  // scratch: d, q, n
   Vector difference_, monomials_;     // of set_monomials()
   Vector direction_;                  // of set_direction()

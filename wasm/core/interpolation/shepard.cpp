@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numerics/dense.hpp"
+#include "core/numerics/elementary.hpp"
 
 namespace handlebody {
 namespace {
@@ -54,11 +55,10 @@ void Shepard::weigh(const double* query, double* w, double* slopes) {
       for (Index axis = 0; r > 0 && std::isfinite(r) && axis < d; ++axis)
         slopes[k * d + axis] = -steepness * ((query[axis] - point[axis]) / r);
     }
+  inverse_powers(w, n, nearest, p);  // relative to the nearest: no overflow
   double others = 0;
-  for (Index k = 0; k < n; ++k) {
-    w[k] = std::exp(p * std::log(nearest / w[k]));  // relative to the nearest: no overflow
+  for (Index k = 0; k < n; ++k)
     if (k != own) others += w[k];
-  }
   for (Index k = 0; k < n; ++k) w[k] /= 1 + others;
   others /= 1 + others;
   if (!slopes) return;

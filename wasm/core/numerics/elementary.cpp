@@ -1,6 +1,7 @@
 // Compiled with -O3: see CMakeLists.txt.
 #include "core/numerics/elementary.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -85,6 +86,23 @@ void logarithms(double* x, Index count) {
 
 void decaying_exponentials(double* x, Index count) {
   in_place(x, count, decaying_exponential);
+}
+
+void inverse_powers(double* x, Index count, double least, double p) {
+  const int whole = p <= 16 ? static_cast<int>(p) : 0;
+  if (whole == p) {
+    for (Index i = 0; i < count; ++i) {
+      double square = least / x[i], product = 1;
+      for (int bits = whole; bits > 0; bits >>= 1, square *= square)
+        if (bits & 1) product *= square;
+      x[i] = product;
+    }
+    return;
+  }
+  for (Index i = 0; i < count; ++i) x[i] = std::min(x[i] / least, 1e308);
+  logarithms(x, count);
+  for (Index i = 0; i < count; ++i) x[i] *= p;
+  decaying_exponentials(x, count);
 }
 
 }  // namespace handlebody

@@ -13,4 +13,8 @@ void logarithms(double* x, Index count);
 /** x ← exp(−x) in place, relative error below 1e-15, for x ≥ 0; 0 from 708 on and for NaN. */
 void decaying_exponentials(double* x, Index count);
 
+/** x ← (least/x)ᵖ in place, for x ≥ least > 0 and p > 0, relative error below 1e-15 (1 + p + p ln(x/least)); 0 where that is below
+ * 1e-300. By products for whole p up to 16. */
+void inverse_powers(double* x, Index count, double least, double p);
+
 }  // namespace handlebody

@@ -9,12 +9,13 @@ namespace handlebody {
 namespace {
 
 constexpr double rank_tolerance = 1e-10;
+constexpr double least = 1e-300;  // whose inverse is a number
 
 }  // namespace
 
 GradedQr::GradedQr(Index most_rows, Index columns)
     : a_(most_rows, columns),
-      scale_(most_rows),
+      one_over_scale_(most_rows),
       tau_(columns),
       size_(columns),
       y_(most_rows),
@@ -31,7 +32,7 @@ void GradedQr::reset(Index rows) {
 bool GradedQr::extend(Index end) {
   for (Index j = rank_; j < end; ++j) {
     size_[j] = 0;
-    for (Index i = 0; i < rows_; ++i) size_[j] = std::max(size_[j], std::abs(a_(i, j)) / scale_[i]);
+    for (Index i = 0; i < rows_; ++i) size_[j] = std::max(size_[j], std::abs(a_(i, j)) * one_over_scale_[i]);
     for (Index k = 0; k < rank_; ++k) reflect(k, &a_(0, j));
   }
   for (Index k = rank_; k < end; ++k) {
@@ -40,17 +41,19 @@ bool GradedQr::extend(Index end) {
     for (Index j = k; j < end; ++j)
       for (Index i = k; i < rows_; ++i)
         if (std::abs(a_(i, j)) > largest) largest = std::abs(a_(row = i, column = j));
-    if (!(largest > 0)) return false;
+    if (!(largest > least)) return false;
     swap_rows(row, k);
     swap_columns(column, k);
     if (!independent(k)) return false;
 
     // Squares of quotients, which neither overflow nor vanish, and a reflector with a leading 1.
     double* x = &a_(0, k);
+    const double one_over_largest = 1 / largest;
     double squared = 0;
-    for (Index i = k; i < rows_; ++i) squared += x[i] / largest * (x[i] / largest);
+    for (Index i = k; i < rows_; ++i) squared += x[i] * one_over_largest * (x[i] * one_over_largest);
     const double norm = largest * std::sqrt(squared), image = x[k] > 0 ? -norm : norm;  // away from x: no cancellation
-    for (Index i = k + 1; i < rows_; ++i) x[i] /= x[k] - image;
+    const double one_over_first = 1 / (x[k] - image);
+    for (Index i = k + 1; i < rows_; ++i) x[i] *= one_over_first;
     tau_[k] = 1 - x[k] / image;
     x[k] = image;
     for (Index j = k + 1; j < end; ++j) reflect(k, &a_(0, j));
@@ -84,7 +87,7 @@ void GradedQr::reflect(Index k, double* x) const {
 void GradedQr::swap_rows(Index i, Index k) {
   if (i == k) return;
   for (Index j = 0; j < a_.cols(); ++j) std::swap(a_(i, j), a_(k, j));
-  std::swap(scale_[i], scale_[k]);
+  std::swap(one_over_scale_[i], one_over_scale_[k]);
   std::swap(row_of_[static_cast<std::size_t>(i)], row_of_[static_cast<std::size_t>(k)]);
 }
 
@@ -97,7 +100,7 @@ void GradedQr::swap_columns(Index j, Index k) {
 
 bool GradedQr::independent(Index column) const {
   for (Index i = column; i < rows_; ++i)
-    if (std::abs(a_(i, column)) > rank_tolerance * size_[column] * scale_[i]) return true;
+    if (std::abs(a_(i, column)) * one_over_scale_[i] > rank_tolerance * size_[column]) return true;
   return false;
 }
 

@@ -13,10 +13,10 @@ class GradedQr {
  public:
   GradedQr(Index most_rows, Index columns);
 
-  /** Begins another matrix A of `rows` rows. All its elements must then be set, and the scale of each row, which is positive. */
+  /** Begins another matrix A of `rows` rows. All its elements must then be set, and how large each row is in all, above 1e-250. */
   void reset(Index rows);
   double& operator()(Index row, Index column) { return a_(row, column); }
-  double& scale(Index row) { return scale_[row]; }
+  void set_scale(Index row, double scale) { one_over_scale_[row] = 1 / scale; }
 
   /** Factors further columns, up to `end`, in any order among themselves. False, and nothing done, where one of them depends on the
    *  others to 1e-10: where what is left of it, divided by the rows' scales, is nowhere above that part of what it was at most. */
@@ -35,7 +35,7 @@ class GradedQr {
   bool independent(Index column) const;
 
   MatrixXd a_;  // on and above the diagonal R, below it the reflectors 1, v₁, v₂ …
-  Vector scale_, tau_, size_, y_;
+  Vector one_over_scale_, tau_, size_, y_;
   Numbers row_of_, column_of_;  // the caller's numbers
   Index rows_ = 0, rank_ = 0;
 };

@@ -46,7 +46,7 @@ export function fromAddress(hash: string): Experiment {
   if (given.get('d') && given.get('d') !== String(experiment.dimension)) return experiment;
   const rows = readPoints(given.get('p') ?? '', experiment.dimension);
   if (rows) Object.assign(experiment, rows);
-  experiment.models = readModels(given.get('m')) ?? experiment.models;
+  experiment.models = readModels(given.get('m'), experiment.dimension) ?? experiment.models;
   const frame = numbers(given.get('in') ?? '');
   if (frame?.length === 4 && (frame[0] as number) < (frame[1] as number) && (frame[2] as number) < (frame[3] as number))
     experiment.frame = frame as unknown as Frame;
@@ -80,13 +80,13 @@ function modelText({ kind, settings, shown }: Model): string {
   return [kind, ...text, ...(shown ? [] : ['hidden'])].join(':');
 }
 
-function readModels(text: string | undefined): Model[] | undefined {
+function readModels(text: string | undefined, dimension: 1 | 2): Model[] | undefined {
   if (text === undefined) return undefined;
   const models: Model[] = [];
   for (const part of text.split('~').slice(0, MOST_MODELS)) {
     const [id = '', ...given] = part.split(':');
     const kind = kindOf(id);
-    if (!kind) continue;
+    if (!kind?.dimensions.includes(dimension)) continue;
     const settings: Record<string, Settings[string]> = {};
     for (const pair of given) {
       const [name, value = ''] = pair.split('=');

@@ -47,7 +47,8 @@ export class Card {
       parameter,
       controlOf(parameter, (setting) => actions.set(key, { [parameter.id]: setting })),
     ]);
-    this.#warnings = new WarningList((settings) => actions.set(key, settings));
+    const known = new Set(parameters.map(({ id }) => id));
+    this.#warnings = new WarningList(known, (settings) => actions.set(key, settings));
     this.#verdict.append(this.#condition, this.#misfit);
 
     const of = (rare: boolean) =>

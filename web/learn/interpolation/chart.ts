@@ -61,14 +61,16 @@ export class Chart {
     );
     this.#svg.append(this.#inner);
     this.element = h('div', { class: 'chart' }, this.#svg, this.area);
-    new ResizeObserver(([entry]) => {
-      if (!entry) return;
-      const { width, height } = entry.contentRect;
-      if (width === this.#size[0] && height === this.#size[1]) return;
-      this.#size = [width, height];
-      this.#layout();
-      onResize();
-    }).observe(this.element);
+    new ResizeObserver(() => this.measure() && onResize()).observe(this.element);
+  }
+
+  /** Takes the size that the page gives; whether it is another one. */
+  measure(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || (width === this.#size[0] && height === this.#size[1])) return false;
+    this.#size = [width, height];
+    this.#layout();
+    return true;
   }
 
   /** Whether names stand beside the curves: elsewhere a legend is due. */
@@ -111,7 +113,7 @@ export class Chart {
   }
 
   draw(curves: readonly Curve[]): void {
-    if (this.width <= 0) return;
+    if (this.width === 0 && !this.measure()) return;
     match(this.#curves, 'path', curves.length);
     curves.forEach((curve, i) => {
       const path = this.#curves.children[i] as SVGPathElement;

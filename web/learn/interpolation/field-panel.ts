@@ -2,11 +2,12 @@ import { h } from '../../ui/dom.ts';
 import type { ColorMap } from './color-map.ts';
 import type { Experiment } from './experiment.ts';
 import { FieldValues } from './field.ts';
-import { Handles, type PointActions } from './handles.ts';
+import { type Board, Handles } from './handles.ts';
 import { drawIsolines, levels } from './isolines.ts';
 import type { Label } from './kind.ts';
 import type { Line } from './section.ts';
 import { swatch } from './swatch.ts';
+import type { PlaneActions, Relief } from './view.ts';
 
 /** One interpolant in the plane: a picture, its name, and the points over it. */
 export class FieldPanel {
@@ -18,6 +19,8 @@ export class FieldPanel {
   readonly #name = h('span', { class: 'name' });
   readonly #detail = h('span', { class: 'detail' });
   readonly #small = h('canvas');
+  /** Where points lie over a surface; nothing over a map. */
+  relief: Relief | undefined;
   #pixels: ImageData | undefined;
   #words: Uint32Array | undefined;
   /** Device pixels of a side. */
@@ -25,16 +28,26 @@ export class FieldPanel {
   #width = 0;
 
   /** `first`: its handles are those that the keyboard reaches. */
-  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PointActions, resized: () => void) {
-    const board = {
-      screen: (i: number) => {
+  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PlaneActions, resized: () => void) {
+    const board: Board = {
+      screen: (i) => {
         const [left, right, bottom, top] = experiment().frame;
         const [x, y] = actions.placeOf(i);
-        return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width] as const;
+        if (this.relief) {
+          const [across, down] = this.relief.screen(experiment(), i);
+          return [across * this.#width, down * this.#width];
+        }
+        return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width];
       },
-      place: (px: number, py: number) => {
+      place: (px, py) => {
+        if (this.relief) return undefined;
         const [left, right, bottom, top] = experiment().frame;
-        return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)] as const;
+        return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)];
+      },
+      drag: (i, px, py) => {
+        if (this.relief) return actions.setValue(i, this.relief.value(experiment(), i, py / this.#width));
+        const place = board.place(px, py);
+        if (place) actions.move(i, ...place);
       },
       get spans() {
         const [left, right, bottom, top] = experiment().frame;
@@ -49,18 +62,26 @@ export class FieldPanel {
       this.area,
       h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
     );
-    new ResizeObserver(() => {
-      const width = this.area.clientWidth;
-      if (width === this.#width || width === 0) return;
-      this.#width = width;
-      this.#side = Math.round(width * devicePixelRatio);
-      this.canvas.width = this.canvas.height = this.#side;
-      resized();
-    }).observe(this.area);
+    new ResizeObserver(() => this.measure() && resized()).observe(this.area);
+  }
+
+  /** Takes the size that the page gives; whether it is another one. */
+  measure(): boolean {
+    const width = this.area.clientWidth;
+    if (width === this.#width || width === 0) return false;
+    this.#width = width;
+    this.#side = Math.round(width * devicePixelRatio);
+    this.canvas.width = this.canvas.height = this.#side;
+    return true;
   }
 
   get side(): number {
     return this.#side;
+  }
+
+  /** Of the processor's, not the graphics card's: many short lines come out several times sooner, most of all where there is no card. */
+  get context(): CanvasRenderingContext2D {
+    return this.canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
   }
 
   name({ name, detail }: Label, slot: number): void {
@@ -80,9 +101,8 @@ export class FieldPanel {
 
   /** Colors, lines of equal value, and where the section runs. */
   paint(size: number, colors: ColorMap, isolines: boolean, section: Line | undefined): void {
-    const context = this.canvas.getContext('2d');
+    const context = this.context;
     const { values } = this.field;
-    if (!context || this.#side === 0) return;
     if (this.#pixels?.width !== size) {
       this.#small.width = this.#small.height = size;
       this.#pixels = new ImageData(size, size);
@@ -90,7 +110,7 @@ export class FieldPanel {
     }
     const words = this.#words as Uint32Array;
     for (let i = 0; i < values.length; i++) words[i] = colors.packed(values[i] as number);
-    this.#small.getContext('2d')?.putImageData(this.#pixels as ImageData, 0, 0);
+    this.#small.getContext('2d', { willReadFrequently: true })?.putImageData(this.#pixels as ImageData, 0, 0);
     context.imageSmoothingQuality = 'high';
     context.clearRect(0, 0, this.#side, this.#side);
     context.drawImage(this.#small, 0, 0, this.#side, this.#side);

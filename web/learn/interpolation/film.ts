@@ -1,7 +1,7 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import { h, svg } from '../../ui/dom.ts';
 import type { Experiment } from './experiment.ts';
-import { dataOf, isOffered, kindOf } from './interpolants.ts';
+import { dataOf, kindOf } from './interpolants.ts';
 import { curvePath } from './path.ts';
 import { PRESETS } from './presets.ts';
 
@@ -17,7 +17,6 @@ export class Film {
     const waiting: (() => void)[] = [];
     for (const preset of PRESETS) {
       const experiment = preset.make();
-      if (!experiment.models.some(({ kind }) => isOffered(hb, kind, experiment.dimension))) continue;
       const picture = svg('svg', { class: 'thumb', viewBox: `0 0 ${WIDTH} ${HEIGHT}`, 'aria-hidden': 'true' });
       const link = h('a', { href: `#${preset.id}`, title: preset.title }, picture, h('span', {}, preset.mark));
       this.#links.set(preset.id, link);
@@ -59,7 +58,6 @@ function draw(hb: Handlebody, experiment: Experiment, picture: SVGSVGElement): v
   const places = dimension === 1 ? xs : new Float64Array(2 * STEPS).map((_, i) => (i % 2 === 0 ? (xs[i / 2] as number) : 0));
   const [ax, ay] = [WIDTH / (right - left), HEIGHT / (high - low)];
   for (const { kind, settings, slot } of experiment.models) {
-    if (!isOffered(hb, kind, dimension)) continue;
     try {
       const made = kindOf(kind)?.make(hb, dataOf(experiment), settings);
       if (!made) continue;

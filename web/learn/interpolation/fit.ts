@@ -64,7 +64,7 @@ export class Fit {
     made.evaluate(points, this.#misses);
     let misfit = 0;
     for (let i = 0; i < values.length; i++) misfit = Math.max(misfit, Math.abs((this.#misses[i] ?? 0) - (values[i] ?? 0)));
-    const sum = this.model.kind === 'rbf' ? (made as Rbf) : undefined;
-    return { misfit, report: sum?.report(), coefficients: sum?.coefficients() };
+    const told = made as Partial<Pick<Rbf, 'report' | 'coefficients'>>;
+    return { misfit, report: told.report?.(), coefficients: told.coefficients?.() };
   }
 }

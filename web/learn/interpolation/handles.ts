@@ -4,8 +4,10 @@ import { h } from '../../ui/dom.ts';
 export interface Board {
   /** Pixels of the area for point `i`. */
   screen(i: number): readonly [number, number];
-  /** A place for pixels of the area. */
-  place(px: number, py: number): readonly [number, number];
+  /** A place for pixels of the area; nothing where the picture has no one place for them. */
+  place(px: number, py: number): readonly [number, number] | undefined;
+  /** Brings point `i` to pixels of the area. */
+  drag(i: number, px: number, py: number): void;
   /** Extent of both axes: a hundredth is a step of the keyboard. */
   readonly spans: readonly [number, number];
 }
@@ -16,6 +18,8 @@ export interface PointActions {
   readonly picked: number;
   placeOf(i: number): readonly [number, number];
   move(i: number, across: number, up: number): void;
+  /** What puts point `i` back to where it is now. */
+  hold(i: number): () => void;
   /** Adds to the value of a point, in hundredths of the values' range; only where that is not its place. */
   raise?(i: number, hundredths: number): void;
   pick(i: number): void;
@@ -36,9 +40,9 @@ export class Handles {
   readonly #actions: PointActions;
   readonly #silent: boolean;
   readonly #handles: HTMLButtonElement[] = [];
-  #drag: { i: number; pointer: number; from: readonly [number, number]; dx: number; dy: number } | undefined;
-  /** Where a point was when the keyboard took hold of it. */
-  #before: { i: number; place: readonly [number, number] } | undefined;
+  #drag: { i: number; pointer: number; back: () => void; dx: number; dy: number } | undefined;
+  /** The point that the keyboard took hold of. */
+  #before: { i: number; back: () => void } | undefined;
 
   /** `silent` handles are for pointers only: copies of others that the keyboard reaches. */
   constructor(area: HTMLElement, board: Board, actions: PointActions, silent = false) {
@@ -49,7 +53,8 @@ export class Handles {
     area.addEventListener('dblclick', (event) => {
       if (event.target !== area) return;
       const box = area.getBoundingClientRect();
-      actions.addAt(...board.place(event.clientX - box.left, event.clientY - box.top));
+      const place = board.place(event.clientX - box.left, event.clientY - box.top);
+      if (place) actions.addAt(...place);
     });
     document.addEventListener('keydown', this.#escape, { capture: true });
   }
@@ -109,7 +114,7 @@ export class Handles {
     this.#drag = {
       i,
       pointer: event.pointerId,
-      from: this.#actions.placeOf(i),
+      back: this.#actions.hold(i),
       dx: event.clientX - box.left - x,
       dy: event.clientY - box.top - y,
     };
@@ -120,8 +125,7 @@ export class Handles {
     const drag = this.#drag;
     if (drag?.pointer !== event.pointerId) return;
     const box = this.#area.getBoundingClientRect();
-    const place = this.#board.place(event.clientX - box.left - drag.dx, event.clientY - box.top - drag.dy);
-    this.#actions.move(drag.i, ...place);
+    this.#board.drag(drag.i, event.clientX - box.left - drag.dx, event.clientY - box.top - drag.dy);
   }
 
   #end(pointer: number): void {
@@ -133,9 +137,9 @@ export class Handles {
 
   readonly #escape = (event: KeyboardEvent): void => {
     if (event.key !== 'Escape' || !this.#drag) return;
-    const { i, from, pointer } = this.#drag;
+    const { back, pointer } = this.#drag;
     this.#end(pointer);
-    this.#actions.move(i, ...from);
+    back();
     this.#actions.settle();
     event.stopPropagation();
   };
@@ -160,10 +164,10 @@ export class Handles {
     }
     const move = moves[event.key];
     if (move && !event.ctrlKey && !event.metaKey && !event.altKey) {
-      if (this.#before?.i !== i) this.#before = { i, place: [across, up] };
+      if (this.#before?.i !== i) this.#before = { i, back: actions.hold(i) };
       move();
     } else if (event.key === 'Escape' && this.#before?.i === i) {
-      actions.move(i, ...this.#before.place);
+      this.#before.back();
       this.#before = undefined;
     } else if (event.key === 'Delete' || event.key === 'Backspace') {
       actions.remove(i);

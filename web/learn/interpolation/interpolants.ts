@@ -1,20 +1,12 @@
-import type { Handlebody, Interpolant } from '../../../wasm/ts/index.ts';
+import type { MovingWeight } from '../../../wasm/ts/index.ts';
 import { type Experiment, type Model, newModel, type Settings } from './experiment.ts';
 import type { Data, Kind, Label } from './kind.ts';
-import { complete } from './parameter.ts';
+import { type Choice, complete } from './parameter.ts';
 import { KERNEL_NAMES, rbf } from './rbf-kind.ts';
 import { brief } from './words.ts';
 
-type Maker = (options: Record<string, unknown>) => Interpolant;
-
-/** Methods that the solver may not have yet. */
-function call(hb: Handlebody, method: string, options: Record<string, unknown>): Interpolant {
-  return (hb as unknown as Record<string, Maker>)[method]?.(options) as Interpolant;
-}
-
 const shepard: Kind = {
   id: 'shepard',
-  method: 'shepard',
   dimensions: [1, 2],
   parameters: [
     { type: 'range', id: 'power', label: 'Power p', initial: 2, low: 0.5, high: 8, scale: 'even', step: 0.1 },
@@ -29,7 +21,6 @@ const shepard: Kind = {
 
 const movingLeastSquares: Kind = {
   id: 'mls',
-  method: 'movingLeastSquares',
   dimensions: [1, 2],
   parameters: [
     {
@@ -58,7 +49,7 @@ const movingLeastSquares: Kind = {
       type: 'range',
       id: 'power',
       label: 'Power p',
-      initial: 2,
+      initial: 4,
       low: 0.5,
       high: 8,
       scale: 'even',
@@ -67,60 +58,87 @@ const movingLeastSquares: Kind = {
     },
     {
       type: 'range',
-      id: 'width',
+      id: 'epsilon',
+      label: 'ε',
+      initial: 0,
+      low: 1e-3,
+      high: 3,
+      scale: 'log-zero',
+      when: ({ weight }) => weight === 'inverse-distance',
+    },
+    {
+      type: 'choice',
+      id: 'fit',
       label: 'Width',
-      initial: 1.5,
+      initial: 'auto',
+      options: [
+        ['auto', 'from the spacing of the points'],
+        ['own', 'set by hand'],
+      ],
+      when: ({ weight }) => weight !== 'inverse-distance',
+    },
+    {
+      type: 'range',
+      id: 'width',
+      label: 'Width by hand',
+      initial: 2,
       low: 0.02,
       high: 50,
       scale: 'log',
-      when: ({ weight }) => weight !== 'inverse-distance',
+      when: ({ weight, fit }) => weight !== 'inverse-distance' && fit === 'own',
     },
   ],
-  label: ({ degree, weight, power, width }) => ({
+  label: ({ degree, weight, power, epsilon, fit, width }) => ({
     name: 'Moving least squares',
-    detail: `${['constant', 'linear', 'quadratic'][Number(degree)]}, ${weight === 'inverse-distance' ? `p = ${brief(power as number)}` : `width ${brief(width as number)}`}`,
+    detail: [
+      ['constant', 'linear', 'quadratic'][Number(degree)],
+      ...(weight === 'inverse-distance'
+        ? [`p = ${brief(power as number)}`]
+        : [`${weight === 'gaussian' ? 'Gaussian' : 'Wendland'}`]),
+      ...(weight === 'inverse-distance' && epsilon ? [`ε = ${brief(epsilon as number)}`] : []),
+      ...(weight !== 'inverse-distance' && fit === 'own' ? [`width ${brief(width as number)}`] : []),
+    ].join(', '),
   }),
-  make: (hb, data, { degree, weight, power, width }) =>
-    call(hb, 'movingLeastSquares', {
+  make: (hb, data, { degree, weight, power, epsilon, fit, width }) =>
+    hb.movingLeastSquares({
       ...data,
-      degree: Number(degree),
-      weight,
-      ...(weight === 'inverse-distance' ? { power } : { width }),
+      degree: Number(degree) as 0 | 1 | 2,
+      weight: weight as MovingWeight,
+      power: power as number,
+      epsilon: epsilon as number,
+      width: fit === 'own' ? (width as number) : 'auto',
     }),
+};
+
+const outside: Choice = {
+  type: 'choice',
+  id: 'outside',
+  label: 'Outside the hull',
+  initial: 'nearest',
+  options: [
+    ['nearest', 'the value of the nearest place in it'],
+    ['nan', 'nothing'],
+  ],
 };
 
 const simplexLinear: Kind = {
   id: 'linear',
-  method: 'simplexLinear',
   dimensions: [1, 2],
-  parameters: [
-    {
-      type: 'choice',
-      id: 'outside',
-      label: 'Outside the hull',
-      initial: 'nearest',
-      options: [
-        ['nearest', 'the nearest value'],
-        ['nan', 'nothing'],
-      ],
-    },
-  ],
+  parameters: [outside],
   label: (_, dimension) => ({ name: dimension === 1 ? 'Piecewise linear' : 'Linear on triangles', detail: '' }),
-  make: (hb, data, { outside }) => call(hb, 'simplexLinear', { ...data, outside }),
+  make: (hb, data, settings) => hb.simplexLinear({ ...data, outside: settings.outside as 'nearest' | 'nan' }),
 };
 
 const naturalNeighbor: Kind = {
   id: 'natural',
-  method: 'naturalNeighbor',
   dimensions: [2],
-  parameters: [],
+  parameters: [outside],
   label: () => ({ name: 'Natural neighbor', detail: '' }),
-  make: (hb, data) => call(hb, 'naturalNeighbor', { ...data }),
+  make: (hb, data, settings) => hb.naturalNeighbor({ ...data, dimension: 2, outside: settings.outside as 'nearest' | 'nan' }),
 };
 
 const tensionSpline: Kind = {
   id: 'tension',
-  method: 'tensionSpline',
   dimensions: [1, 2],
   parameters: [
     { type: 'range', id: 'alpha', label: 'α, against curvature', initial: 1, low: 1e-3, high: 100, scale: 'log-zero' },
@@ -149,7 +167,16 @@ const tensionSpline: Kind = {
     ].join(', '),
   }),
   make: (hb, data, { alpha, beta, gamma, smoothing, ends }) =>
-    call(hb, 'tensionSpline', { ...data, alpha, beta, gamma, smoothing, ...(data.dimension === 1 && { ends }) }),
+    hb.tensionSpline({
+      ...data,
+      alpha: alpha as number,
+      beta: beta as number,
+      gamma: gamma as number,
+      smoothing: smoothing as number,
+      ...(data.dimension === 1 && { ends: ends as 'natural' | 'zero-slope' }),
+      // The page shows them itself.
+      onWarning: () => {},
+    }),
 };
 
 const KINDS: readonly Kind[] = [shepard, movingLeastSquares, simplexLinear, naturalNeighbor, tensionSpline, rbf];
@@ -167,10 +194,9 @@ export function labelOf(model: Model, dimension: 1 | 2): Label {
   return kindOf(model.kind)?.label(model.settings, dimension) ?? { name: model.kind, detail: '' };
 }
 
-/** Whether the solver makes this kind, and in this dimension. */
-export function isOffered(hb: Handlebody, id: string, dimension: 1 | 2): boolean {
-  const kind = kindOf(id);
-  return !!kind && kind.dimensions.includes(dimension) && kind.method in hb;
+/** Whether there is such a kind, and in this dimension. */
+export function isOffered(id: string, dimension: 1 | 2): boolean {
+  return kindOf(id)?.dimensions.includes(dimension) ?? false;
 }
 
 /** What the "add" menu holds, in groups. */

@@ -18,8 +18,6 @@ export interface Label {
 /** A kind of interpolant: what it is called, what can be set, how it is made. */
 export interface Kind {
   readonly id: string;
-  /** The solver's method that makes it. */
-  readonly method: string;
   readonly dimensions: readonly (1 | 2)[];
   readonly parameters: readonly Parameter[];
   label(settings: Settings, dimension: 1 | 2): Label;

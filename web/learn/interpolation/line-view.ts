@@ -35,6 +35,7 @@ export class LineView implements View {
         return [this.#chart.x(x), this.#chart.y(y)] as const;
       },
       place: (px: number, py: number) => this.#chart.at(px, py),
+      drag: (i: number, px: number, py: number) => actions.move(i, ...this.#chart.at(px, py)),
       get spans() {
         const [left, right, bottom, top] = chart.frame;
         return [right - left, top - bottom] as const;

@@ -1,4 +1,3 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
 import { h } from '../../ui/dom.ts';
 import { Card, type CardActions } from './card.ts';
 import type { Settings } from './experiment.ts';
@@ -16,14 +15,12 @@ export class ModelList {
   readonly #menu = h('div', { class: 'offers' });
   readonly #add: HTMLDetailsElement;
   readonly #actions: ModelActions;
-  readonly #hb: Handlebody;
   readonly #cards = new Map<number, Card>();
   /** Which cards somebody opened or closed. */
   readonly #opened = new Map<number, boolean>();
   #dimension: 1 | 2 = 1;
 
-  constructor(hb: Handlebody, actions: ModelActions) {
-    this.#hb = hb;
+  constructor(actions: ModelActions) {
     this.#actions = actions;
     this.#add = h('details', { class: 'add' }, h('summary', { class: 'button' }, 'Add an interpolant'), this.#menu);
     this.#add.addEventListener('keydown', (event) => {
@@ -79,7 +76,7 @@ export class ModelList {
   #offer(): void {
     const groups = OFFERS.map(({ group, offers }) => ({
       group,
-      offers: offers.filter(({ kind }) => isOffered(this.#hb, kind, this.#dimension)),
+      offers: offers.filter(({ kind }) => isOffered(kind, this.#dimension)),
     })).filter(({ offers }) => offers.length > 0);
     this.#menu.replaceChildren(
       ...groups.map(({ group, offers }) =>

@@ -37,7 +37,7 @@ export class Page {
     });
     this.#playground = playground;
     this.#film = new Film(hb);
-    this.#models = new ModelList(hb, {
+    this.#models = new ModelList({
       add: (kind, settings) => {
         const fit = playground.addModel(kind, settings);
         if (fit) requestAnimationFrame(() => this.#models.reveal(fit.model.key));
@@ -116,6 +116,7 @@ export class Page {
   }
 
   #frame(): void {
+    byId('playground').dataset.rest = 'no';
     const { experiment, tolerance, found, view, fits } = this.#playground;
     this.#models.update(tolerance);
     this.#show.update(experiment, outlierText(found));
@@ -129,6 +130,7 @@ export class Page {
   #rest(said: string): void {
     this.#write();
     this.#live.textContent = said;
+    byId('playground').dataset.rest = this.#playground.view ? 'yes' : 'no';
   }
 
   /** The address says what the page shows. */
@@ -138,7 +140,6 @@ export class Page {
       history.replaceState(null, '', `#${address}`);
     this.#caption.show(experiment.preset, address !== experiment.preset);
     this.#film.show(address === experiment.preset ? address : '');
-    byId('playground').dataset.address = address;
   }
 
   async #copy(): Promise<void> {

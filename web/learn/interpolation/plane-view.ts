@@ -102,16 +102,19 @@ export class PlaneView implements View {
     const { show, frame, picked } = experiment;
     const surfaces = show.surface ? this.#wantSurfaces() : undefined;
     this.element.toggleAttribute('data-surface', !!surfaces);
+    this.element.toggleAttribute('data-flat', !!surfaces && cardinal);
     const start = performance.now();
     this.#grid.lay(frame, this.#pace.size(resting));
     const { size, queries } = this.#grid;
     for (const fit of fits) {
       const panel = this.#panels.get(fit.model.key);
+      if (panel?.side === 0) panel.measure();
       if (!panel || panel.side === 0) continue;
       panel.name(fit.label, fit.model.slot);
       panel.stale = fit.problem !== undefined;
+      panel.relief = surfaces && !cardinal ? surfaces : undefined;
       panel.field.sample(fit, queries, cardinal ? picked : -1, experiment);
-      if (surfaces) surfaces.paint(panel.canvas, panel.field.values, size, colors, experiment, cardinal);
+      if (surfaces) surfaces.paint(panel.context, panel.field.values, size, colors, experiment, cardinal);
       else panel.paint(size, colors, show.isolines, line);
     }
     if (fits.length > 0) this.#pace.took(performance.now() - start, size);

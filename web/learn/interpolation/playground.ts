@@ -18,7 +18,7 @@ import {
 } from './experiment.ts';
 import { Fit } from './fit.ts';
 import type { PointActions } from './handles.ts';
-import { dataOf, isOffered, kindOf, modelOf } from './interpolants.ts';
+import { dataOf, kindOf, modelOf } from './interpolants.ts';
 import { outlierText, searchOutliers, summary } from './report.ts';
 import type { View } from './view.ts';
 
@@ -65,7 +65,6 @@ export class Playground implements PointActions {
   start(experiment: Experiment): void {
     for (const fit of this.fits) fit.dispose();
     this.emphasis = 0;
-    experiment.models = experiment.models.filter(({ kind }) => isOffered(this.hb, kind, experiment.dimension));
     this.experiment = experiment;
     this.fits = experiment.models.map((model) => new Fit(model, experiment.dimension));
     this.#restructured = true;
@@ -103,6 +102,16 @@ export class Playground implements PointActions {
   move(i: number, across: number, up: number): void {
     setPlace(this.experiment, i, across, up);
     this.#change('all');
+  }
+
+  hold(i: number): () => void {
+    const [place, value] = [this.placeOf(i), this.experiment.values[i] as number];
+    return () => {
+      if (i >= this.count) return;
+      setPlace(this.experiment, i, ...place);
+      this.experiment.values[i] = value;
+      this.#change('all');
+    };
   }
 
   raise(i: number, hundredths: number): void {
@@ -261,6 +270,8 @@ export class Playground implements PointActions {
   #restSoon(): void {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
+      // A slow machine has not drawn yet what is to be at rest.
+      if (this.#frame !== 0) return this.#restSoon();
       this.view?.refine();
       this.#audience.rest(this, summary(this.experiment, this.fits, outlierText(this.found)));
     }, REST);

@@ -187,7 +187,7 @@ export const PRESETS: readonly Preset[] = [
     id: 'fig-20',
     mark: 'Fig. 20',
     title: 'Four corners and a peak',
-    look: 'Zero at the corners of a square, one in the middle, a Gaussian that is too broad: beyond the corners it plunges to half the peak, below zero. Weight decay of 0.01 and 0.1 tames that, and misses the peak.',
+    look: 'Zero at the corners of a square, one in the middle, and a Gaussian that is too broad: beyond the corners it plunges below zero, by half the height of the peak. Weight decay of 0.01 and 0.1 tames that, and misses the peak.',
     attempt:
       'Add a point of another value close to the middle: without regularization the field runs away, with it nothing much happens.',
     make: () =>

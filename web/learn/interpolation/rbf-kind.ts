@@ -168,7 +168,6 @@ function stretched(factor: number, degrees: number): number[] {
 
 export const rbf: Kind = {
   id: 'rbf',
-  method: 'rbf',
   dimensions: [1, 2],
   parameters,
   label({ kernel, fit, width, order, smoothing, decay, normalized, centers }) {

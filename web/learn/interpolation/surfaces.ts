@@ -12,17 +12,19 @@ import {
   OrthographicCamera,
   Scene,
   SphereGeometry,
+  Vector3,
   WebGLRenderer,
 } from 'three';
 import { h } from '../../ui/dom.ts';
 import type { ColorMap } from './color-map.ts';
 import { type Experiment, MOST_POINTS } from './experiment.ts';
+import type { Relief } from './view.ts';
 
 /** Height of the color range, where the picture is one wide. */
 const HEIGHT = 0.55;
 
 /** Fields as surfaces over the plane: one renderer draws them all, one after another, and copies each into its own canvas. */
-export class Surfaces {
+export class Surfaces implements Relief {
   /** Sliders that turn and tilt all surfaces alike. */
   readonly controls: HTMLElement;
   readonly #renderer = new WebGLRenderer({ antialias: true, alpha: true });
@@ -34,6 +36,10 @@ export class Surfaces {
   readonly #balls = new InstancedMesh(new SphereGeometry(0.022, 16, 12), new MeshLambertMaterial(), MOST_POINTS);
   readonly #matrix = new Matrix4();
   readonly #color = new Color();
+  readonly #place = new Vector3();
+  /** The range of the last picture. */
+  #low = 0;
+  #high = 1;
   #turn = -35;
   #tilt = 35;
   #size = 0;
@@ -63,7 +69,7 @@ export class Surfaces {
   }
 
   paint(
-    canvas: HTMLCanvasElement,
+    context: CanvasRenderingContext2D,
     values: Float64Array,
     size: number,
     colors: ColorMap,
@@ -74,6 +80,7 @@ export class Surfaces {
     const positions = this.#geometry.getAttribute('position') as BufferAttribute;
     const shades = this.#geometry.getAttribute('color') as BufferAttribute;
     const { low, high } = colors;
+    [this.#low, this.#high] = [low, high];
     for (let i = 0; i < values.length; i++) {
       const value = values[i] as number;
       // Beyond the range a little further, then cut off.
@@ -85,31 +92,55 @@ export class Surfaces {
     positions.needsUpdate = shades.needsUpdate = true;
     this.#geometry.computeVertexNormals();
 
-    const [left, right, bottom, top] = experiment.frame;
+    this.#look();
     this.#balls.count = cardinal ? 0 : experiment.values.length;
     for (let i = 0; i < this.#balls.count; i++) {
-      const [x, y, value] = [experiment.points[2 * i] ?? 0, experiment.points[2 * i + 1] ?? 0, experiment.values[i] ?? 0];
-      const place = [
-        (x - left) / (right - left) - 0.5,
-        ((value - low) / (high - low) - 0.5) * HEIGHT,
-        (top - y) / (top - bottom) - 0.5,
-      ] as const;
-      this.#balls.setMatrixAt(i, this.#matrix.makeTranslation(...place));
+      this.#locate(experiment, i, experiment.values[i] ?? 0);
+      this.#balls.setMatrixAt(i, this.#matrix.makeTranslation(this.#place));
       this.#balls.setColorAt(i, this.#color.set(i === experiment.picked ? 0x1f5fc4 : 0xffffff));
     }
     this.#balls.instanceMatrix.needsUpdate = true;
     if (this.#balls.instanceColor) this.#balls.instanceColor.needsUpdate = true;
 
+    const { width, height } = context.canvas;
+    this.#renderer.setSize(width, height, false);
+    this.#renderer.render(this.#scene, this.#camera);
+    context.clearRect(0, 0, width, height);
+    context.drawImage(this.#renderer.domElement, 0, 0);
+  }
+
+  screen(experiment: Experiment, i: number): readonly [number, number] {
+    return this.#project(experiment, i, experiment.values[i] ?? 0);
+  }
+
+  value(experiment: Experiment, i: number, down: number): number {
+    // Without perspective the height on the screen is linear in the value.
+    const [low, high] = [this.#project(experiment, i, this.#low)[1], this.#project(experiment, i, this.#high)[1]];
+    if (Math.abs(high - low) < 0.02) return experiment.values[i] ?? 0;
+    return this.#low + ((down - low) / (high - low)) * (this.#high - this.#low);
+  }
+
+  #project(experiment: Experiment, i: number, value: number): readonly [number, number] {
+    this.#look();
+    this.#locate(experiment, i, value);
+    this.#place.project(this.#camera);
+    return [(this.#place.x + 1) / 2, (1 - this.#place.y) / 2];
+  }
+
+  /** The place of a point in the scene. */
+  #locate({ frame: [left, right, bottom, top], points }: Experiment, i: number, value: number): void {
+    const [x, y] = [points[2 * i] ?? 0, points[2 * i + 1] ?? 0];
+    const level = (value - this.#low) / (this.#high - this.#low);
+    this.#place.set((x - left) / (right - left) - 0.5, (level - 0.5) * HEIGHT, (top - y) / (top - bottom) - 0.5);
+  }
+
+  #look(): void {
     const [turn, tilt] = [(this.#turn * Math.PI) / 180, (this.#tilt * Math.PI) / 180];
     this.#camera.position.set(Math.sin(turn) * Math.cos(tilt), Math.sin(tilt), Math.cos(turn) * Math.cos(tilt));
     this.#camera.up.set(0, 1, 0);
     if (this.#tilt === 90) this.#camera.up.set(-Math.sin(turn), 0, -Math.cos(turn));
     this.#camera.lookAt(0, 0, 0);
-    this.#renderer.setSize(canvas.width, canvas.height, false);
-    this.#renderer.render(this.#scene, this.#camera);
-    const context = canvas.getContext('2d');
-    context?.clearRect(0, 0, canvas.width, canvas.height);
-    context?.drawImage(this.#renderer.domElement, 0, 0);
+    this.#camera.updateMatrixWorld();
   }
 
   #shade(packed: number): void {

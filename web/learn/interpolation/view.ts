@@ -25,6 +25,13 @@ export interface View {
   dispose(): void;
 }
 
+/** How points lie over a surface: parts of the picture from its upper left corner. */
+export interface Relief {
+  screen(experiment: Experiment, i: number): readonly [number, number];
+  /** The value at which point `i` would be seen at this height. */
+  value(experiment: Experiment, i: number, down: number): number;
+}
+
 /** What the plane asks for besides moving points. */
 export interface PlaneActions extends PointActions {
   setValue(i: number, value: number): void;

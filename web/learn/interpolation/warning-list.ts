@@ -22,10 +22,13 @@ export function remediesOf({ suggestion }: Pick<RbfWarning, 'suggestion'>): Reme
 /** An interpolant's error and warnings, each as a sentence, what to do about it, and buttons that do it. */
 export class WarningList {
   readonly element = h('div', { class: 'warnings' });
+  readonly #known: ReadonlySet<string>;
   readonly #apply: (settings: Settings) => void;
   readonly #items = new Map<string, { element: HTMLElement; update(message: string, remedy: string, remedies: Remedy[]): void }>();
 
-  constructor(apply: (settings: Settings) => void) {
+  /** `known`: the settings that the interpolant has; remedies that need others get no button. */
+  constructor(known: ReadonlySet<string>, apply: (settings: Settings) => void) {
+    this.#known = known;
     this.#apply = apply;
   }
 
@@ -45,7 +48,10 @@ export class WarningList {
       const { message, remedy } = explain(problem);
       tell('error', message, `${remedy} The picture is the last good one.`, []);
     } else {
-      for (const warning of warnings) tell(warning.code, warning.message, warning.remedy, remediesOf(warning));
+      for (const warning of warnings) {
+        const remedies = remediesOf(warning).filter(({ settings }) => Object.keys(settings).every((id) => this.#known.has(id)));
+        tell(warning.code, warning.message, warning.remedy, remedies);
+      }
     }
     for (const [code, { element }] of this.#items) {
       if (told.has(code)) continue;

@@ -1,0 +1,33 @@
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import type { Page } from 'playwright-core';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** What axe finds. */
+export async function violations(page: Page): Promise<string[]> {
+  await page.evaluate(axe);
+  return page.evaluate(async () => {
+    const { run } = (globalThis as unknown as { axe: typeof import('axe-core') }).axe;
+    return (await run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.target.join(' ')).join(', ')}`);
+  });
+}
+
+/** Controls smaller than 24 px, and whether the page is wider than its window. */
+export async function cramped(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const small = [
+      ...document.querySelectorAll<HTMLElement>('button, input:not(.unseen), select, summary, a, label:has(input)'),
+    ].filter((control) => {
+      // A click on its label counts for a box to tick.
+      const target = control.matches('[type=checkbox]') ? (control.closest('label') ?? control) : control;
+      const { width, height } = target.getBoundingClientRect();
+      return width > 0 && (width < 24 || height < 24);
+    });
+    const { scrollWidth, clientWidth } = document.documentElement;
+    return [
+      ...small.map((control) => control.outerHTML.slice(0, 80)),
+      ...(scrollWidth > clientWidth ? ['the page overflows sideways'] : []),
+    ];
+  });
+}

@@ -1,0 +1,84 @@
+import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
+import { inject, onTestFinished } from 'vitest';
+import { frames } from './studio.ts';
+
+/** Opens the playground at an address in a context of its own and collects what the console says. */
+export async function play(
+  browser: Browser,
+  hash: string,
+  { before, ...options }: BrowserContextOptions & { before?: () => void } = {},
+): Promise<{ page: Page; said: string[] }> {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  onTestFinished(() => context.close());
+  const page = await context.newPage();
+  const said: string[] = [];
+  page.on(
+    'console',
+    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
+  );
+  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
+  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  if (before) await page.addInitScript(before);
+  await page.goto(`${inject('site')}learn/interpolation/${hash}`);
+  await page.waitForSelector('#playground[data-state=ready]', { timeout: 60_000 });
+  await rested(page);
+  return { page, said };
+}
+
+/** Waits until the page has written its address and spoken: nothing has moved for a while. */
+export async function rested(page: Page): Promise<void> {
+  await page.waitForFunction(() => document.getElementById('playground')?.dataset.rest === 'yes', undefined, { timeout: 30_000 });
+  await frames(page, 2);
+}
+
+export interface Spot {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** Middle of a point's handle on the screen. */
+export async function spot(page: Page, point: number, panel = 0): Promise<Spot> {
+  const box = await page.locator(`.point[data-point="${point}"]`).nth(panel).boundingBox();
+  if (!box) throw new Error(`there is no point ${point}`);
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** How far each curve passes from a place on the screen, pixels; curves in the order of the cards. */
+export async function curveDistances(page: Page, place: Spot, chart = '.main-chart'): Promise<number[]> {
+  return page.evaluate(
+    ([{ x, y }, selector]) =>
+      [...document.querySelectorAll<SVGPathElement>(`${selector} .curves path`)].map((path) => {
+        const toScreen = path.getScreenCTM();
+        if (!toScreen) return Number.NaN;
+        const numbers = (path.getAttribute('d') ?? '').match(/-?[\d.]+/g)?.map(Number) ?? [];
+        let nearest = Number.POSITIVE_INFINITY;
+        let last: DOMPoint | undefined;
+        for (let i = 0; i + 1 < numbers.length; i += 2) {
+          const at = new DOMPoint(numbers[i], numbers[i + 1]).matrixTransform(toScreen);
+          const [ax, ay] = [last?.x ?? at.x, last?.y ?? at.y];
+          const length = (at.x - ax) ** 2 + (at.y - ay) ** 2;
+          const t = length === 0 ? 0 : Math.min(Math.max(((x - ax) * (at.x - ax) + (y - ay) * (at.y - ay)) / length, 0), 1);
+          nearest = Math.min(nearest, Math.hypot(ax + t * (at.x - ax) - x, ay + t * (at.y - ay) - y));
+          last = at;
+        }
+        return nearest;
+      }),
+    [place, chart] as const,
+  );
+}
+
+/** How many colors a map has, coarsely: 1 for a picture that is empty. */
+export async function colorsOf(page: Page, panel: number): Promise<number> {
+  return page.evaluate((i) => {
+    const canvas = document.querySelectorAll<HTMLCanvasElement>('.field canvas')[i];
+    const data = canvas?.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+    const seen = new Set<number>();
+    for (let at = 0; at < data.length; at += 4)
+      seen.add(((data[at] ?? 0) >> 4) * 256 + ((data[at + 1] ?? 0) >> 4) * 16 + ((data[at + 2] ?? 0) >> 4));
+    return seen.size;
+  }, panel);
+}
+
+export async function said(page: Page): Promise<string> {
+  return (await page.locator('#live').textContent()) ?? '';
+}

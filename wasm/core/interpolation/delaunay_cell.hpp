@@ -1,0 +1,67 @@
+// The Delaunay cell that holds a place x, in any dimension and without a triangulation: of the linear program
+//
+//   minimize Σ wᵢ‖pᵢ − x‖²   where   Σ wᵢ (pᵢ − x) = 0,   Σ wᵢ = 1,   w ≥ 0
+//
+// the optimal basis is a simplex with an empty circumsphere around x. (Its dual finds, below all points lifted to the paraboloid,
+// the plane that is highest at x; what the plane touches is a facet of the lower hull. The reduced cost of a point is its power
+// with respect to the sphere.) All points on that sphere are the cell: d + 1 of them as a rule, more where points are cospherical.
+//
+// From one place to another only the right-hand side changes, so that any empty simplex is a start for the dual simplex method.
+// Each pivot crosses the facet beyond which x lies, to the simplex on its other side: a walk. It starts from a simplex at the
+// nearest point, itself found, at the first question for it, by a walk from one fixed simplex; so an answer depends on x alone and
+// not on what was asked before. A walk takes a few pivots of O(nd + d²).
+#pragma once
+
+#include <cstdint>
+
+#include "core/numerics/sort.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+class DelaunayCell {
+ public:
+  /** Points are on the sphere if their power is below this part of the squared radius, or of the squared unit, if that is less. */
+  static constexpr double cospherical = 1e-9;
+
+  /** `points` n×d, d ≥ 0, that span the space, of a size about 1 and around the origin, no two in one place. */
+  explicit DelaunayCell(const Matrix& points);
+
+  /** Looks for the cell of `place` (d), no farther from the points than they are from each other. False where there is none, that
+   * is outside the hull by more than rounding, or if a bound on the number of pivots is met: ties cannot cycle, by Bland's rule,
+   * but rounding might. Allocates nothing. */
+  bool find(const double* place);
+
+  /** The points of the cell found last, ascending. At a point, that point alone. */
+  const Numbers& members() const { return members_; }
+
+ private:
+  Index measure(const double* place);
+  double affine(const double* coefficients, Index point) const;
+  double steepness(Index row) const;
+  void pivot(Index row, std::uint32_t point);
+  void factor();
+  void raise_plane();
+  bool enter(Index row, double direction);
+  bool bland() const;
+  bool walk();
+
+  Matrix points_;
+  Vector place_;     // x
+  Vector costs_;     // n: ‖pᵢ − x‖²
+  Numbers basis_;    // d+1
+  Numbers root_;     // d+1: of the simplex that all walks come from
+  Numbers former_;   // scratch of factor()
+  Numbers starts_;   // n×(d+1): bases at the points, where their first is not `none`
+  Numbers members_;  // room for n
+  Matrix inverse_;   // (d+1)×(d+1): row k is barycentric coordinate k, (1, p − x) ↦ λₖ(p); its first number is λₖ(x)
+  Vector column_;    // d+1: barycentric coordinates of the point that enters
+  Vector plane_;     // d+1: the lifted plane through the basis, ‖p − x‖² ≥ plane · (1, p − x)
+  double tie_ = 0;   // powers below are zero
+  Vector powers_;    // n: reduced costs
+  Vector rates_;     // n: what they fall by while the plane turns
+  Index age_ = 0;    // of the inverse, pivots
+  Index idle_ = 0;   // pivots since the plane last rose
+};
+
+}  // namespace handlebody

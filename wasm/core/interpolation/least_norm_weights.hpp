@@ -1,0 +1,49 @@
+// The most even way to write a place as a mean of given ones: among all weights that do it, those of least norm.
+//
+//   minimize ½ Σ wᵢ²   where   Σ wᵢ qᵢ = 0,   Σ wᵢ = 1,   w ≥ 0,
+//
+// with the qᵢ relative to the place. By its Lagrangian wᵢ = max(0, v(qᵢ)) for one affine function v, so points that are mirror
+// images of each other as seen from the place have equal weights, and their order does not matter. The dual method of Goldfarb and
+// Idnani (Mathematical Programming 27, 1983) starts without w ≥ 0 and lets go, one at a time, of the points that would be negative,
+// taking back those that have become welcome again. The points kept always span the space. Every round raises the optimum, so none
+// comes twice, and there is an end.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+class LeastNormWeights {
+ public:
+  /** Makes the scratch space for up to `most` points in `dimension` ≥ 0 dimensions. */
+  LeastNormWeights(Index most, Index dimension);
+
+  /** Where to write the coordinates of point i, relative to the place. */
+  double* point(Index i) { return &points_(i, 0); }
+
+  /** The weights of points 0 … `count` − 1, which span the space unless there is just one. False, and no weights, where the place
+   * is outside their hull by more than 1e-9 as weights go. Steps O(count · d) each, as many as points are let go of, and in all no
+   * more than a bound after which the answer is false. Allocates nothing. */
+  bool solve(Index count);
+
+  double weight(Index i) const { return values_[i]; }
+
+ private:
+  void orthonormalize();
+  void along(const double* row, Vector& out);
+  void reweigh(Index i, double sign);
+  bool let_go(Index leaving, Index& steps_left);
+
+  Matrix points_;  // most×d
+  Index count_ = 0;
+  Matrix basis_;                    // most×(d+1): affine functions at all points, orthonormal over those kept
+  Vector values_;                   // v
+  Vector slopes_;                   // change of v
+  Vector pivot_;                    // d+1: a row of basis_
+  std::vector<std::uint8_t> kept_;  // whether wᵢ = v(qᵢ); otherwise it is 0, and v(qᵢ) ≤ 0
+};
+
+}  // namespace handlebody

@@ -1,0 +1,151 @@
+#include "core/interpolation/simplex_linear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+namespace {
+
+constexpr double farthest = 1e150;  // diagonals: coordinates beyond are clamped, as NearestInHull does
+constexpr double nudge = 1e-12;     // part of the way to the center that moves points of the hull's boundary inside
+
+/** Splits `offset` into its coordinates along orthonormal `axes` and, left in place, what is off their span. */
+void project(const Matrix& axes, Vector& offset, double* coordinates) {
+  for (Index j = 0; j < axes.rows(); ++j) {
+    double along = 0;
+    for (Index axis = 0; axis < offset.size(); ++axis) along += axes(j, axis) * offset[axis];
+    for (Index axis = 0; axis < offset.size(); ++axis) offset[axis] -= along * axes(j, axis);
+    coordinates[j] = along;
+  }
+}
+
+/** Orthonormal axes of what the rows of `rest` span from the origin, up to `tolerance`: Gram and Schmidt, the farthest row first.
+ */
+Matrix span_axes(Matrix rest, double tolerance) {
+  const Index d = rest.cols();
+  Matrix axes(0, d);
+  Vector axis(d), coordinates(d);
+  for (;;) {
+    double longest = tolerance * tolerance;
+    bool found = false;
+    for (Index i = 0; i < rest.rows(); ++i) {
+      const double squared = rest.row(i).squaredNorm();
+      if (!(squared > longest)) continue;
+      longest = squared;
+      axis = rest.row(i).transpose();
+      found = true;
+    }
+    if (!found || axes.rows() == d) return axes;
+    project(axes, axis, coordinates.data());  // once more: what is left of a row is not orthogonal to its last digit
+    const Index next = axes.rows();
+    axes.conservativeResize(next + 1, d);
+    axes.row(next) = axis.transpose() / std::sqrt(axis.squaredNorm());
+    for (Index i = 0; i < rest.rows(); ++i) {
+      double along = 0;
+      for (Index k = 0; k < d; ++k) along += axes(next, k) * rest(i, k);
+      for (Index k = 0; k < d; ++k) rest(i, k) -= along * axes(next, k);
+    }
+  }
+}
+
+}  // namespace
+
+/** Where the points are, how large and what they span; the points in that frame. */
+struct SimplexLinear::Frame {
+  Vector center;
+  double scale = 1, radius = 0, rounding = 0;
+  Matrix axes, points;
+
+  explicit Frame(const ScatteredData& data) : center(Vector::Zero(data.points.cols())), points(data.points) {
+    const Index n = points.rows(), d = points.cols();
+    if (data.diagonal > 0) scale = data.diagonal;
+    for (Index i = 0; i < n; ++i) center += points.row(i).transpose() / static_cast<double>(n);
+    for (Index i = 0; i < n; ++i) points.row(i) = (points.row(i) - center.transpose()) / scale;
+    for (const double coordinate : Eigen::Map<const Vector>(data.points.data(), data.points.size()))
+      rounding = std::max(rounding, std::abs(coordinate));
+    rounding *= 4 * std::numeric_limits<double>::epsilon() / scale;
+    axes = span_axes(points, coincidence);
+    if (axes.rows() < d) {
+      const Matrix around = points;
+      points.resize(n, axes.rows());
+      Vector offset(d);
+      for (Index i = 0; i < n; ++i) {
+        offset = around.row(i).transpose();
+        project(axes, offset, points.data() + i * axes.rows());
+      }
+    } else {
+      axes.resize(0, d);  // the coordinates as they are
+    }
+    for (Index i = 0; i < n; ++i) radius = std::max(radius, points.row(i).squaredNorm());
+    radius = std::sqrt(radius);
+  }
+};
+
+Result<SimplexLinear> SimplexLinear::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
+                                            OutsideHull outside) {
+  auto data = check_data(points, values, Coincident::merge);
+  if (!data) return data.error();
+  Frame frame(*data);
+  return SimplexLinear(std::move(*data), outside, std::move(frame));
+}
+
+SimplexLinear::SimplexLinear(ScatteredData data, OutsideHull outside, Frame frame)
+    : Interpolant(std::move(data)),
+      outside_(outside),
+      center_(std::move(frame.center)),
+      scale_(frame.scale),
+      axes_(std::move(frame.axes)),
+      points_(std::move(frame.points)),
+      radius_(frame.radius),
+      rounding_(frame.rounding),
+      cell_(points_),
+      least_norm_(points_.rows(), points_.cols()),
+      hull_(points_),
+      offset_(center_.size()),
+      place_(points_.cols()) {}
+
+/** Fills w with the weights at place_ in its cell, which is looked for a part `inward` of the way to the center. False, and w as it
+ *  was, where there is none. */
+bool SimplexLinear::weigh_cell(double inward, double* w) {
+  for (Index axis = 0; axis < place_.size(); ++axis) offset_[axis] = place_[axis] * (1 - inward);
+  if (!cell_.find(offset_.data())) return false;
+  const Numbers& members = cell_.members();
+  const auto count = static_cast<Index>(members.size());
+  for (Index m = 0; m < count; ++m)
+    for (Index axis = 0; axis < place_.size(); ++axis)
+      least_norm_.point(m)[axis] = points_(members[static_cast<std::size_t>(m)], axis) - place_[axis];
+  if (!least_norm_.solve(count)) return false;
+  std::fill(w, w + points_.rows(), 0.0);
+  for (Index m = 0; m < count; ++m) w[members[static_cast<std::size_t>(m)]] = least_norm_.weight(m);
+  return true;
+}
+
+void SimplexLinear::weigh(const double* query, double* w, double* slopes) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Index n = points_.rows(), d = dimension();
+  if (slopes) std::fill(slopes, slopes + n * d, nan);
+  for (Index axis = 0; axis < d; ++axis) offset_[axis] = std::clamp((query[axis] - center_[axis]) / scale_, -farthest, farthest);
+  if (place_.size() == d) {
+    place_ = offset_;
+  } else {
+    project(axes_, offset_, place_.data());
+    const double allowed = n > 1 ? 2 * coincidence + rounding_ : 0;
+    if (outside_ == OutsideHull::nan && offset_.squaredNorm() > allowed * allowed) {
+      std::fill(w, w + n, nan);
+      return;
+    }
+  }
+  // Walks are for places among the points: from afar all of these look alike.
+  if (place_.squaredNorm() <= radius_ * radius_ && weigh_cell(0, w)) return;
+  if (hull_(place_.data(), place_.data(), w) > rounding_ && outside_ == OutsideHull::nan) {
+    std::fill(w, w + n, nan);
+    return;
+  }
+  weigh_cell(nudge, w);  // chooses evenly among the corners of a face; if rounding fails it, the hull's own weights do
+}
+
+}  // namespace handlebody
