@@ -1,10 +1,12 @@
-"""Writes tension_spline_1d.json: splines in tension with zero-slope ends. Run: pip install numpy==2.4.6 scipy==1.17.1; python tension_spline_1d.py
+"""Writes tension_spline_1d.json: splines in tension with zero-slope ends.
 
-beta = 0: scipy.interpolate.CubicSpline with clamped ends. beta > 0: the functional alpha int f''^2 + beta int f'^2 is minimized DIRECTLY
-over cubic Hermite finite elements, with the data at nodes and the end slopes held at 0: no formula of tension splines is used. The
-error at nodes falls as h^4 (the script checks that); Richardson extrapolation of two refinements leaves what "accuracy" says,
-estimated by the change from extrapolating twice. Elements have lengths that are powers of two, so that their matrices are exact, and
-solutions are refined with residuals in extended precision: rounding stays below 1e-12.
+Run: pip install numpy==2.4.6 scipy==1.17.1; python tension_spline_1d.py
+
+beta = 0: scipy.interpolate.CubicSpline with clamped ends. beta > 0: the functional alpha int f''^2 + beta int f'^2 is minimized
+DIRECTLY over cubic Hermite finite elements, with the data at nodes and the end slopes held at 0: no formula of tension splines is
+used. The error at nodes falls as h^4 (the script checks that); Richardson extrapolation of two refinements leaves what "accuracy"
+says, estimated by the change from extrapolating twice. Elements have lengths that are powers of two, so that their matrices are
+exact, and solutions are refined with residuals in extended precision: rounding stays below 1e-12.
 """
 
 import json
@@ -81,9 +83,23 @@ def extrapolated(solve, parts):
 def main():
     random = np.random.default_rng(20140728)
     entries = []
-    for count, alpha, beta in [(2, 1, 0), (5, 1, 0), (12, 3, 0), (2, 1, 4), (3, 1, 1), (6, 2, 10), (6, 1, 100), (10, 1, 1e3), (9, 0.5, 0.01)]:
+    for count, alpha, beta in [
+        (2, 1, 0),
+        (5, 1, 0),
+        (12, 3, 0),
+        (2, 1, 4),
+        (3, 1, 1),
+        (6, 2, 10),
+        (6, 1, 100),
+        (10, 1, 1e3),
+        (9, 0.5, 0.01),
+    ]:
         nodes = np.sort(random.choice(np.arange(40), 3 * count, replace=False)) / 8
-        places = np.sort(np.append(random.choice(nodes[1:-1], count - 2, replace=False), nodes[[0, -1]])) if count > 2 else nodes[[0, -1]]
+        places = (
+            np.sort(np.append(random.choice(nodes[1:-1], count - 2, replace=False), nodes[[0, -1]]))
+            if count > 2
+            else nodes[[0, -1]]
+        )
         values = random.normal(size=count).round(4)
         if beta == 0:
             spline = CubicSpline(places, values, bc_type="clamped")
@@ -95,8 +111,18 @@ def main():
             expected, slopes = expected[np.isin(grid, nodes)], slopes[np.isin(grid, nodes)]
             print(f"alpha {alpha} beta {beta}: order {order:.2f}, accuracy {accuracy:.1e}")
             assert order > 3.5
-        entries.append({"alpha": alpha, "beta": beta, "points": places.tolist(), "values": values.tolist(), "queries": nodes.tolist(),
-                        "expected": expected.round(15).tolist(), "slopes": slopes.round(14).tolist(), "accuracy": float(f"{accuracy:.1e}")})
+        entries.append(
+            {
+                "alpha": alpha,
+                "beta": beta,
+                "points": places.tolist(),
+                "values": values.tolist(),
+                "queries": nodes.tolist(),
+                "expected": expected.round(15).tolist(),
+                "slopes": slopes.round(14).tolist(),
+                "accuracy": float(f"{accuracy:.1e}"),
+            }
+        )
     text = "[\n" + ",\n".join(json.dumps(entry) for entry in entries) + "\n]\n"
     pathlib.Path(__file__).with_suffix(".json").write_text(text)
 

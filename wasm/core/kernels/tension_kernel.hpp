@@ -18,12 +18,12 @@
 //   G = e^{−mr} (cosh hr + m sinh(hr)/h) / (4α m (m² − h²)).
 //
 // Where γ = 0 constants cost nothing, and where β = 0 as well linear functions: the tail consists of them, and the kernel is known
-// only up to them. G(0) = 0 is chosen:
+// only up to them. G(0) = 0 is chosen (C is Euler's constant):
 //
-//                  1D                         2D                                  3D
-//   γ = 0          −(br + e^{−br} − 1)/(2αb³)   −(ln(br/2) + C + K₀(br))/(2παb²)       −(br + e^{−br} − 1)/(4παb²r)      b² = β/α
-//   β = γ = 0      r³/(12α)                     r² ln r/(8πα)                       −r/(8πα)
-//   α = 0          e^{−kr}/(2kβ) or −r/(2β)       –                                   –                               k² = γ/β
+//              1D                          2D                                3D
+//   γ = 0      −(br + e^{−br} − 1)/(2αb³)  −(ln(br/2) + C + K₀(br))/(2παb²)  −(br + e^{−br} − 1)/(4παb²r)  b² = β/α
+//   β = γ = 0  r³/(12α)                    r² ln r/(8πα)                     −r/(8πα)
+//   α = 0      e^{−kr}/(2kβ) or −r/(2β)    –                                 –                             k² = γ/β
 #pragma once
 
 #include "core/numerics/result.hpp"
