@@ -11,7 +11,6 @@ namespace handlebody {
 namespace {
 
 constexpr double farthest = 1e150;  // diagonals: coordinates beyond are clamped, as NearestInHull does
-constexpr double nudge = 1e-12;     // part of the way to the center that moves points of the hull's boundary inside
 
 /** Splits `offset` into its coordinates along orthonormal `axes` and, left in place, what is off their span. */
 void project(const Matrix& axes, Vector& offset, double* coordinates) {
@@ -108,11 +107,9 @@ SimplexLinear::SimplexLinear(ScatteredData data, OutsideHull outside, Frame fram
       offset_(center_.size()),
       place_(points_.cols()) {}
 
-/** Fills w with the weights at place_ in its cell, which is looked for a part `inward` of the way to the center. False, and w as it
- *  was, where there is none. */
-bool SimplexLinear::weigh_cell(double inward, double* w) {
-  for (Index axis = 0; axis < place_.size(); ++axis) offset_[axis] = place_[axis] * (1 - inward);
-  if (!cell_.find(offset_.data())) return false;
+/** Fills w with the weights of the cell at place_. False, and w as it was, where none holds it. */
+bool SimplexLinear::weigh_cell(double* w) {
+  if (!cell_.find(place_.data())) return false;
   const Numbers& members = cell_.members();
   const auto count = static_cast<Index>(members.size());
   for (Index m = 0; m < count; ++m)
@@ -140,12 +137,12 @@ void SimplexLinear::weigh(const double* query, double* w, double* slopes) {
     }
   }
   // Walks are for places among the points: from afar all of these look alike.
-  if (place_.squaredNorm() <= radius_ * radius_ && weigh_cell(0, w)) return;
+  if (place_.squaredNorm() <= radius_ * radius_ && weigh_cell(w)) return;
   if (hull_(place_.data(), place_.data(), w) > rounding_ && outside_ == OutsideHull::nan) {
     std::fill(w, w + n, nan);
     return;
   }
-  weigh_cell(nudge, w);  // chooses evenly among the corners of a face; if rounding fails it, the hull's own weights do
+  weigh_cell(w);  // chooses evenly among the corners of a face; if rounding fails it, the hull's own weights do
 }
 
 }  // namespace handlebody

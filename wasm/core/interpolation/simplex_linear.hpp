@@ -39,7 +39,7 @@ class SimplexLinear final : public Interpolant {
   SimplexLinear(ScatteredData data, OutsideHull outside, Frame frame);
 
   void weigh(const double* query, double* w, double* slopes) override;
-  bool weigh_cell(double inward, double* w);
+  bool weigh_cell(double* w);
 
   OutsideHull outside_;
   Vector center_;    // d: the mean of the points
@@ -51,7 +51,7 @@ class SimplexLinear final : public Interpolant {
   DelaunayCell cell_;
   LeastNormWeights least_norm_;
   NearestInHull hull_;
-  Vector offset_;  // d: the query from the center; scratch
+  Vector offset_;  // d: the query from the center
   Vector place_;   // r: the query in the frame
 };
 
