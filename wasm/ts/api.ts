@@ -1,6 +1,13 @@
 /** What both entries export besides their `load`. */
 export { BAKE_DEFAULTS } from './bake.ts';
 export {
+  BIHARMONIC_WEIGHTS_DEFAULTS,
+  BiharmonicWeights,
+  type BiharmonicWeightsOptions,
+  type Island,
+  type SparseRows,
+} from './biharmonic-weights.ts';
+export {
   DISCRETE_GREEN_DEFAULTS,
   DiscreteGreen,
   type DiscreteGreenOptions,
@@ -28,5 +35,7 @@ export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
 export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+export type { SimplexMesh } from './simplex-mesh.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export type * from './types.ts';
+export type { WeightHandle } from './weight-handles.ts';

@@ -1,5 +1,6 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
+import { BiharmonicWeights, type BiharmonicWeightsOptions } from './biharmonic-weights.ts';
 import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
@@ -13,8 +14,10 @@ import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import type { SimplexMesh } from './simplex-mesh.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
+import type { WeightHandle } from './weight-handles.ts';
 
 const ABI_VERSION = 1;
 
@@ -91,6 +94,15 @@ export class Handlebody {
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
     return new TensionSpline(this.#heap, options);
+  }
+
+  /** Harmonic, biharmonic or triharmonic skinning weights of handles on a mesh. */
+  biharmonicWeights(
+    mesh: SimplexMesh,
+    handles: readonly WeightHandle[],
+    options: BiharmonicWeightsOptions = {},
+  ): BiharmonicWeights {
+    return new BiharmonicWeights(this.#heap, mesh, handles, options);
   }
 }
 
