@@ -1,5 +1,6 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { type ConformingTriangulation, conformingDelaunay } from './delaunay.ts';
+import { refine } from './refine.ts';
 import { resample, segmentDistance } from './resample.ts';
 import { checkShape, extentOf, inside, type Shape, shapeArea } from './shape.ts';
 
@@ -28,8 +29,8 @@ export interface MeshShapeOptions {
 }
 
 /**
- * A mesh of even triangles: points along the border, a hexagonal lattice inside, a few rounds of smoothing, and a conforming Delaunay
- * triangulation of both. The same shape gives the same mesh.
+ * A mesh of even triangles: points along the border, a hexagonal lattice inside, a few rounds of smoothing, a conforming Delaunay
+ * triangulation of both, and Ruppert's refinement of what small angles are left. The same shape gives the same mesh.
  *
  * Throws what `checkShape` and `conformingDelaunay` throw, and 'invalid-option' for a number of vertices out of range.
  *
@@ -52,7 +53,7 @@ export function meshShape(shape: Shape, options: MeshShapeOptions = {}): PlaneMe
   let lattice = hexagons(border, spacing).filter(([x, y]) => walls.clear(x, y) && inside(border, x, y));
   for (let round = 0; round < smoothing; round++)
     lattice = smooth(conformingDelaunay(border, lattice.flat()), border, lattice, walls);
-  const { points, triangles, border: edges } = withoutStrays(conformingDelaunay(border, lattice.flat()));
+  const { points, triangles, border: edges } = withoutStrays(refine(border, lattice.flat(), spacing));
   return { positions: points, triangles, border: edges, smallestAngle: smallestAngle(points, triangles) };
 }
 

@@ -63,6 +63,16 @@ export function simplify(ring: Ring, tolerance: number): Ring {
   return kept.length < 3 ? ring : Float64Array.from(kept.flatMap((i) => [x(i), y(i)]));
 }
 
+/** A ring without points that repeat the one before them, as a last one that closes it does. */
+export function withoutRepeats(ring: Ring): Ring {
+  const n = ring.length;
+  return ring.filter((_, i) => {
+    const at = i - (i % 2);
+    const before = (at + n - 2) % n;
+    return n <= 2 || ring[at] !== ring[before] || ring[at + 1] !== ring[before + 1];
+  });
+}
+
 /** Distance of a point from a segment. */
 export function segmentDistance(px: number, py: number, ax: number, ay: number, bx: number, by: number): number {
   const [dx, dy] = [bx - ax, by - ay];

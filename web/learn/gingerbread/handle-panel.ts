@@ -108,7 +108,7 @@ export class HandlePanel {
       this.#which.dataset.kinds = kinds(handles);
       this.#which.replaceChildren(
         h('option', { value: -1 }, 'none'),
-        ...handles.map(({ end }, i) => h('option', { value: i }, `${end ? 'Bone' : 'Handle'} ${i + 1}`)),
+        ...handles.map(({ end }, i) => h('option', { value: i }, `${end ? 'Bone' : 'Handle'} ${i}`)),
       );
     }
     this.#which.value = String(picked);

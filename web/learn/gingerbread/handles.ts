@@ -87,7 +87,7 @@ export class Handles {
       const tip = picture.toScreen(endOf(handle));
       put(end, tip);
       end.toggleAttribute('data-picked', i === picked);
-      end.ariaLabel = `End of bone ${i + 1}, turned ${Math.round(handle.turn)}°`;
+      end.ariaLabel = `End of bone ${i}, turned ${Math.round(handle.turn)}°`;
       const [dx, dy] = [tip[0] - at[0], tip[1] - at[1]];
       line.style.width = `${Math.hypot(dx, dy).toFixed(1)}px`;
       line.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) rotate(${Math.atan2(dy, dx)}rad)`;

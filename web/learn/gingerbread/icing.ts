@@ -20,7 +20,7 @@ const DOUGHS = {
   gingerbread: { middle: '#c98a4b', base: '#b9763a', rim: '#7d4518', icing: '#fff8ec' },
   chocolate: { middle: '#e9c38f', base: '#dcae74', rim: '#a9743b', icing: undefined },
   doughnut: { middle: '#dda560', base: '#d0954e', rim: '#96602a', icing: undefined },
-  berry: { middle: '#e98aa6', base: '#dd7394', rim: '#a2426a', icing: '#fff1f5' },
+  berry: { middle: '#e98aa6', base: '#dd7394', rim: '#a2426a', icing: undefined },
 } satisfies Record<string, Dough>;
 
 const PIXELS = 1280;
@@ -251,6 +251,18 @@ export function paintOctopus(shape: Shape): PaintedShape {
       return [0.1 * Math.cos(angle), 0.22 + 0.09 * Math.sin(angle)];
     });
     squeeze(context, smile, 0.024, '#7c2350');
+    // Suckers along the tentacles.
+    context.fillStyle = '#f7c3d3';
+    for (const [ax, ay, bx, by] of [
+      [0.42, 0.0, 0.72, -0.17],
+      [0.78, -0.12, 0.98, 0.05],
+      [0.36, -0.22, 0.6, -0.47],
+      [0.68, -0.5, 0.95, -0.5],
+      [0.13, -0.34, 0.2, -0.62],
+      [0.25, -0.7, 0.44, -0.95],
+    ] as const)
+      for (const side of [-1, 1])
+        for (const t of [0.05, 0.4, 0.75]) disk(context, side * (ax + (bx - ax) * t), ay + (by - ay) * t, 0.034);
   });
 }
 

@@ -256,7 +256,7 @@ export class Lesson {
   describe(i: number): string {
     const handle = this.handles[i] as Handle;
     const [x, y] = placeOf(handle);
-    return `${handle.end ? 'Bone' : 'Handle'} ${i + 1}, x ${readable(x)}, y ${readable(y)}, turned ${readable(handle.turn, 0)}°`;
+    return `${handle.end ? 'Bone' : 'Handle'} ${i}, x ${readable(x)}, y ${readable(y)}, turned ${readable(handle.turn, 0)}°`;
   }
 
   /** Handles as they are drawn, on their way to a pose. */

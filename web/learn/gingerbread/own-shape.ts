@@ -1,4 +1,4 @@
-import { simplify } from '../../models/resample.ts';
+import { simplify, withoutRepeats } from '../../models/resample.ts';
 import { checkShape, type Shape } from '../../models/shape.ts';
 import { centered } from '../../models/trace-picture.ts';
 import { h, svg } from '../../ui/dom.ts';
@@ -126,8 +126,9 @@ export class OwnShape {
     );
   }
 
-  #take(shape: Shape): void {
+  #take(rings: Shape): void {
     try {
+      const shape = rings.map(withoutRepeats);
       checkShape(shape);
       this.#actions.take(centered(shape, 2).shape);
       this.hide();

@@ -265,7 +265,7 @@ export class Page {
     this.#legend.hidden = !weight || !weightsOf(method);
     this.#weightBox.disabled = !weightsOf(method);
     this.#remove.disabled = !handles[picked];
-    this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked + 1}` : 'Remove';
+    this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
     this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles.length)}`);
     if (method.family === 'irbf') void this.#bake(method);
   }
@@ -307,8 +307,8 @@ export class Page {
     this.#islands.hidden = islands.length === 0;
     this.#islands.textContent = islands
       .map(
-        ({ vertices, handle }) =>
-          `A piece of ${vertices} vertices holds no handle; it ${handle >= 0 ? `follows handle ${handle + 1}, the nearest` : 'stays where it is'}.`,
+        ({ count, first, handle }) =>
+          `A piece of ${count} vertices (${first} is its first) holds no handle: all of it follows handle ${handle}, the nearest.`,
       )
       .join(' ');
   }

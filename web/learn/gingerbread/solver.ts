@@ -1,4 +1,4 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { Handlebody, WeightHandle } from '../../../wasm/ts/index.ts';
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Handle } from './experiment.ts';
 import type { EnergyKind, WeightsKind } from './methods.ts';
@@ -14,10 +14,10 @@ export interface Deformation {
 }
 
 export interface Island {
-  readonly vertices: number;
-  /** A vertex of it. */
+  readonly count: number;
+  /** Its first vertex. */
   readonly first: number;
-  /** The handle that took it, −1 where none did. */
+  /** The handle that it follows. */
   readonly handle: number;
 }
 
@@ -30,44 +30,36 @@ export interface Weights {
   dispose(): void;
 }
 
-// TEMPORARY stand-in: inverse distances and blending in JavaScript.
-export function solveWeights(_hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
-  const made = standIn(mesh, handles, kind);
+const ORDERS = { harmonic: 1, biharmonic: 2, triharmonic: 3 } as const;
+
+export function solveWeights(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
+  // TEMPORARY: bounded weights are clamped biharmonic ones until they come.
+  const order = kind === 'bounded' ? 2 : ORDERS[kind];
+  const solved = hb.biharmonicWeights({ ...mesh, dimension: 2 }, handles.map(weightHandle), { order });
   return {
-    islands: [],
     get weights() {
-      return made.weights;
+      return kind === 'bounded' ? clamped(solved.weights, solved.handleCount) : solved.weights;
     },
-    setHandles(next) {
-      made.weights = standIn(mesh, next, kind).weights;
+    get islands() {
+      return solved.islands;
     },
-    dispose() {},
+    setHandles: (next) => solved.setHandles(next.map(weightHandle)),
+    dispose: () => solved.dispose(),
   };
 }
 
-function standIn(mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): { weights: Float64Array } {
-  const n = mesh.positions.length / 2;
-  const power = { biharmonic: 2, bounded: 3, harmonic: 1, triharmonic: 4 }[kind];
-  const weights = new Float64Array(n * handles.length);
-  for (let i = 0; i < n; i++) {
+function clamped(weights: Float64Array, h: number): Float64Array {
+  const out = weights.map((w) => Math.min(Math.max(w, 0), 1));
+  for (let i = 0; i < out.length; i += h) {
     let sum = 0;
-    const raw = handles.map((handle) => {
-      const w = 1 / (near(handle, mesh.positions[2 * i] as number, mesh.positions[2 * i + 1] as number) + 1e-3) ** power;
-      sum += w;
-      return w;
-    });
-    raw.forEach((w, k) => {
-      weights[i * handles.length + k] = w / sum;
-    });
+    for (let k = 0; k < h; k++) sum += out[i + k] as number;
+    for (let k = 0; k < h; k++) out[i + k] = (out[i + k] as number) / sum;
   }
-  return { weights };
+  return out;
 }
 
-function near({ rest, end }: Handle, x: number, y: number): number {
-  const [bx, by] = end ?? rest;
-  const [dx, dy] = [bx - rest[0], by - rest[1]];
-  const t = Math.min(Math.max(((x - rest[0]) * dx + (y - rest[1]) * dy) / (dx * dx + dy * dy || 1), 0), 1);
-  return Math.hypot(x - rest[0] - t * dx, y - rest[1] - t * dy);
+function weightHandle({ rest, end }: Handle): WeightHandle {
+  return end ? { bone: [rest, end] } : { at: rest };
 }
 
 export function linearBlend(_hb: Handlebody, mesh: PlaneMesh, weights: Float64Array): Deformation {
