@@ -9,7 +9,7 @@ import { SHAPES, shapeOf } from './shapes.ts';
  */
 
 /** Points of an own outline that an address can carry. */
-const MOST_ADDRESS_POINTS = 400;
+export const MOST_ADDRESS_POINTS = 400;
 
 /** What a shape opens with. */
 export function initial(shape: ShapeName = 'man', outline?: Shape): Experiment {
@@ -102,7 +102,7 @@ function readOutline(text: string): Shape | undefined {
   const rings = text.split(';').map((ring) => numbers(ring));
   const sound = rings.every((ring) => ring !== undefined && ring.length % 2 === 0);
   const count = rings.reduce((sum, ring) => sum + (ring?.length ?? 0) / 2, 0);
-  if (!sound || count > 4 * MOST_ADDRESS_POINTS) return undefined;
+  if (!sound || count > MOST_ADDRESS_POINTS) return undefined;
   return rings.map((ring) => Float64Array.from(ring ?? [], (value) => value / 1000));
 }
 

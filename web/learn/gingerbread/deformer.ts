@@ -8,7 +8,8 @@ import { type Deformation, energyMinimizer, linearBlend, rigidBlend, solveWeight
 /** What interior radial basis functions need: made on demand, on another thread. */
 export interface SlabDeformation {
   setHandles(handles: readonly Handle[]): void;
-  deform(handles: readonly Handle[], out: Float32Array): void;
+  /** Whether another round would improve it. */
+  deform(handles: readonly Handle[], out: Float32Array): boolean;
   dispose(): void;
 }
 
@@ -66,28 +67,27 @@ export class Deformer {
     return weights;
   }
 
-  /** Places of the vertices under a method, n×2. Throws what the solver throws. */
-  deform(method: Method, handles: readonly Handle[], out: Float32Array): void {
+  /**
+   * Places of the vertices under a method, n×2. Returns whether the next frame would come closer still, as iterations do. What is not
+   * prepared leaves the places as they are. Throws what the solver throws.
+   */
+  deform(method: Method, handles: readonly Handle[], out: Float32Array): boolean {
     if (handles.length === 0) {
       out.set(this.mesh.positions);
-      return;
+      return false;
     }
     if (method.family === 'irbf') {
       const kind = method.kind as DistanceKind;
       const slab = this.#slabs.get(kind);
-      if (!slab) {
-        out.set(this.mesh.positions);
-        return;
-      }
+      if (!slab) return false;
       if (!this.#freshSlabs.has(kind)) slab.setHandles(handles);
       this.#freshSlabs.add(kind);
-      slab.deform(handles, out);
-      return;
+      return slab.deform(handles, out);
     }
     const deformation = this.#deformations.get(method.id) ?? this.#make(method);
     this.#deformations.set(method.id, deformation);
     writeTransforms(handles, deformation.transforms);
-    deformation.deform(out);
+    return deformation.deform(out);
   }
 
   dispose(): void {

@@ -71,6 +71,7 @@ export function writeTransforms(handles: readonly Handle[], out: Float64Array): 
 
 /** Into (−180, 180]. */
 export function wrap(degrees: number): number {
+  if (degrees > -180 && degrees <= 180) return degrees;
   const wrapped = ((((degrees + 180) % 360) + 360) % 360) - 180;
   return wrapped === -180 ? 180 : wrapped;
 }

@@ -38,6 +38,8 @@ export class Handles {
   readonly #items: Item[] = [];
   readonly #knob = h('span', { class: 'knob', 'aria-hidden': 'true' });
   #drag: Drag | undefined;
+  /** A handle that asks to be taken, until one is. */
+  #invites = 2;
   /** The handle that the keyboard took hold of. */
   #before: { i: number; back: () => void } | undefined;
 
@@ -81,6 +83,7 @@ export class Handles {
       put(move, at);
       move.toggleAttribute('data-picked', i === picked);
       move.toggleAttribute('data-bone', handle.end !== undefined);
+      move.toggleAttribute('data-invites', i === this.#invites);
       move.ariaLabel = this.#lesson.describe(i);
       end.hidden = line.hidden = handle.end === undefined;
       if (!handle.end) return;
@@ -144,6 +147,7 @@ export class Handles {
     const grip: Place = element === this.#knob ? [0, 0] : [at[0] - middle[0], at[1] - middle[1]];
     this.#drag = { i, part, pointer: event.pointerId, back, grip, at };
     this.#area.toggleAttribute('data-dragging', true);
+    this.#invites = -1;
     this.#lesson.pick(i);
   }
 

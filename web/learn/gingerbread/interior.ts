@@ -56,13 +56,14 @@ export async function bakeSlab(
           at += TARGET;
         }
       }
-      irbf.solve({ maxIterations: ROUNDS });
+      const { converged } = irbf.solve({ maxIterations: ROUNDS });
       irbf.deform(places);
       // The middle of both faces.
       for (let i = 0; i < n; i++) {
         out[2 * i] = ((places[3 * i] as number) + (places[3 * (n + i)] as number)) / 2;
         out[2 * i + 1] = ((places[3 * i + 1] as number) + (places[3 * (n + i) + 1] as number)) / 2;
       }
+      return !converged;
     },
     dispose: () => irbf.dispose(),
   };

@@ -30,6 +30,8 @@ export interface Audience {
 const REST = 350;
 /** Milliseconds that a pose takes to be struck. */
 const EASE = 700;
+/** Frames for which iterations go on after the last change. */
+const MOST_ROUNDS = 60;
 
 /** The shape, its handles and their pose: every change goes through here, and is solved and drawn with the next frame. */
 export class Lesson {
@@ -50,6 +52,8 @@ export class Lesson {
   #ease: { from: Handle[]; start: number } | undefined;
   #good: Float32Array;
   #failed: string | undefined;
+  /** Frames since something changed. */
+  #rounds = 0;
 
   constructor(picture: Picture, audience: Audience) {
     this.picture = picture;
@@ -102,6 +106,7 @@ export class Lesson {
       this.#painting = painting;
       this.experiment = experiment;
       [this.outline, this.mesh] = [outline, mesh];
+      if (experiment.shape === 'own' && experiment.handles.length === 0) this.experiment.handles = this.#spread(4);
     } catch (error) {
       this.#audience.trouble(error);
       return false;
@@ -333,6 +338,11 @@ export class Lesson {
   }
 
   #change(): void {
+    this.#rounds = 0;
+    this.#next();
+  }
+
+  #next(): void {
     this.#frame ||= requestAnimationFrame(() => this.#run());
     this.#restSoon();
   }
@@ -360,8 +370,9 @@ export class Lesson {
     const begun = performance.now();
     if (this.#ease && begun - this.#ease.start >= EASE) this.#ease = undefined;
     const { positions } = this.picture;
+    let unfinished = false;
     try {
-      this.deformer?.deform(this.method, this.shown, positions);
+      unfinished = this.deformer?.deform(this.method, this.shown, positions) ?? false;
       if (positions.some((value) => !Number.isFinite(value))) throw notFinite();
       this.#good.set(positions);
       if (this.#failed) this.#audience.trouble(undefined);
@@ -377,7 +388,8 @@ export class Lesson {
     this.picture.moved();
     this.#drawShown();
     this.#audience.frame();
-    if (this.#ease) this.#change();
+    // Iterations go on for a while when the handles stand still.
+    if (this.#ease || (unfinished && this.#rounds++ < MOST_ROUNDS)) this.#next();
   }
 
   #restSoon(): void {
@@ -410,8 +422,20 @@ export class Lesson {
     return undefined;
   }
 
+  /** Points far from each other. */
+  #spread(count: number): Handle[] {
+    const handles: Handle[] = [];
+    for (let i = 0; i < count; i++) {
+      const [x, y] = this.#emptiest(handles);
+      handles.push(point(tidy(x), tidy(y)));
+      // The first is only where to start from.
+      if (i === 0) handles[0] = point(...this.#emptiest(handles));
+    }
+    return handles.map(({ rest }) => point(tidy(rest[0]), tidy(rest[1])));
+  }
+
   /** The vertex farthest from all handles, at rest. */
-  #emptiest(): Place {
+  #emptiest(handles = this.handles): Place {
     const { positions, border } = this.mesh;
     const rim = new Set(border);
     let [best, farthest] = [[positions[0] as number, positions[1] as number] as Place, -1];
@@ -419,7 +443,7 @@ export class Lesson {
       if (rim.has(i / 2)) continue;
       const [x, y] = [positions[i] as number, positions[i + 1] as number];
       let least = Infinity;
-      for (const { rest, end } of this.handles)
+      for (const { rest, end } of handles)
         for (const [px, py] of end ? [rest, end] : [rest]) least = Math.min(least, Math.hypot(x - px, y - py));
       if (least > farthest) [best, farthest] = [[x, y], least];
     }

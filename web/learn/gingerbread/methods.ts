@@ -76,7 +76,7 @@ export const METHODS: readonly Method[] = [
     family: 'irbf' as const,
     kind,
     name,
-    title: `IRBF, ${name.split(' ')[0]?.toLowerCase()}`,
+    title: `IRBF, ${kind === 'interior' ? kind : 'Euclidean'}`,
   })),
 ];
 

@@ -1,10 +1,11 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
+import { simplify, withoutRepeats } from '../../models/resample.ts';
 import type { Shape } from '../../models/shape.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import { ColorMap } from '../interpolation/color-map.ts';
-import { initial } from './address.ts';
-import { type ShapeName, VERTICES } from './experiment.ts';
+import { initial, MOST_ADDRESS_POINTS } from './address.ts';
+import { type ShapeName, tidy, VERTICES } from './experiment.ts';
 import { HandlePanel } from './handle-panel.ts';
 import { Handles } from './handles.ts';
 import type { PaintedShape } from './icing.ts';
@@ -185,7 +186,7 @@ export class Page {
 
   #takeOutline(outline: Shape, painting?: PaintedShape): void {
     const { method } = this.#lesson.experiment;
-    if (!this.#lesson.start({ ...initial('own', outline), method }, painting)) return;
+    if (!this.#lesson.start({ ...initial('own', portable(outline)), method }, painting)) return;
     this.#own.hide();
     history.pushState(null, '', `#${this.#lesson.address}`);
   }
@@ -372,6 +373,15 @@ export class Page {
       this.#live.textContent = 'The link is in the address bar.';
     }
   }
+}
+
+/** An outline that the address can hold: simpler, where it has too many points, and to a thousandth, as the address says it. */
+function portable(outline: Shape): Shape {
+  let shape = outline.map((ring) => withoutRepeats(ring.map(tidy)));
+  const count = () => shape.reduce((sum, ring) => sum + ring.length / 2, 0);
+  for (let tolerance = 0.001; count() > MOST_ADDRESS_POINTS && tolerance < 0.1; tolerance *= 1.5)
+    shape = shape.map((ring) => simplify(ring, tolerance));
+  return shape;
 }
 
 function captionOf(method: Method, handles: number): string {

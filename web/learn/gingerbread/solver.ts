@@ -8,8 +8,8 @@ import type { EnergyKind, WeightsKind } from './methods.ts';
 /** Something that deforms a mesh by the handles' transforms, 2×3 each. */
 export interface Deformation {
   readonly transforms: Float64Array;
-  /** n×2. */
-  deform(out: Float32Array): void;
+  /** n×2; whether another round would improve it. */
+  deform(out: Float32Array): boolean;
   dispose(): void;
 }
 
@@ -81,6 +81,7 @@ export function linearBlend(_hb: Handlebody, mesh: PlaneMesh, weights: Float64Ar
         out[2 * i] = u;
         out[2 * i + 1] = v;
       }
+      return false;
     },
     dispose() {},
   };
