@@ -37,5 +37,6 @@ export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export type { SimplexMesh } from './simplex-mesh.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+export { TETRAHEDRALIZE_DEFAULTS, Tetrahedra, type TetrahedralizeOptions } from './tetrahedralize.ts';
 export type * from './types.ts';
 export type { WeightHandle } from './weight-handles.ts';

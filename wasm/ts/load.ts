@@ -16,6 +16,7 @@ import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import type { SimplexMesh } from './simplex-mesh.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
@@ -94,6 +95,11 @@ export class Handlebody {
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
     return new TensionSpline(this.#heap, options);
+  }
+
+  /** Fills a surface with tetrahedra, on which weights are those of a solid. */
+  tetrahedralize(surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
+    return tetrahedralize(this.#heap, surface, options);
   }
 
   /** Harmonic, biharmonic or triharmonic skinning weights of handles on a mesh. */
