@@ -20,6 +20,7 @@ export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
 export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
+export { WEIGHT_REQUIREMENTS, type WeightMeasures } from './measure-weights.ts';
 export {
   MOVING_LEAST_SQUARES_DEFAULTS,
   MovingLeastSquares,

@@ -6,6 +6,7 @@ import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { measureWeights, type WeightMeasures } from './measure-weights.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
@@ -109,6 +110,11 @@ export class Handlebody {
     options: BiharmonicWeightsOptions = {},
   ): BiharmonicWeights {
     return new BiharmonicWeights(this.#heap, mesh, handles, options);
+  }
+
+  /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
+  measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
+    return measureWeights(mesh, handles, weights);
   }
 }
 
