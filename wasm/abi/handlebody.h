@@ -267,6 +267,28 @@ HB_API void hb_discrete_green_free(hb_discrete_green* green);
  * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */
 HB_API int32_t hb_natural_neighbor_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
 
+/* ---- tetrahedra ------------------------------------------------------------------------------------------------------------ */
+
+/* Tetrahedra that fill a surface. */
+typedef struct hb_tetrahedra hb_tetrahedra;
+
+typedef struct hb_tetrahedra_view {
+  uint32_t vertex_count;
+  uint32_t tetrahedron_count;
+  const double* positions;     /* vertex_count × 3 */
+  const uint32_t* tetrahedra;  /* tetrahedron_count × 4, positively oriented */
+  const uint32_t* corners;     /* for each vertex of the surface, the 4 corners of its tetrahedron */
+  const double* coordinates;   /* and its 4 barycentric coordinates */
+} hb_tetrahedra_view;
+
+/* The voxels that a surface touches or encloses, `resolution` (4 to 256) along its longest side, as six tetrahedra each. Fails with MESH_* or
+ * INVALID_OPTION. */
+HB_API int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, uint32_t resolution, hb_tetrahedra** tetrahedra);
+
+HB_API void hb_tetrahedra_arrays(hb_tetrahedra* tetrahedra, hb_tetrahedra_view* view);
+
+HB_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
+
 /* ---- skinning weights ------------------------------------------------------------------------------------------------------ */
 
 /* Weights of handles on a mesh: 1 at the handle's own vertices, 0 at the others', smoothest in between. */

@@ -20,6 +20,7 @@ export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
 export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
+export { WEIGHT_REQUIREMENTS, type WeightMeasures } from './measure-weights.ts';
 export {
   MOVING_LEAST_SQUARES_DEFAULTS,
   MovingLeastSquares,
@@ -37,5 +38,6 @@ export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export type { SimplexMesh } from './simplex-mesh.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+export { TETRAHEDRALIZE_DEFAULTS, Tetrahedra, type TetrahedralizeOptions } from './tetrahedralize.ts';
 export type * from './types.ts';
 export type { WeightHandle } from './weight-handles.ts';

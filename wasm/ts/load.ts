@@ -6,6 +6,7 @@ import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { measureWeights, type WeightMeasures } from './measure-weights.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
@@ -16,6 +17,7 @@ import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import type { SimplexMesh } from './simplex-mesh.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
@@ -96,6 +98,11 @@ export class Handlebody {
     return new TensionSpline(this.#heap, options);
   }
 
+  /** Fills a surface with tetrahedra, on which weights are those of a solid. */
+  tetrahedralize(surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
+    return tetrahedralize(this.#heap, surface, options);
+  }
+
   /** Harmonic, biharmonic or triharmonic skinning weights of handles on a mesh. */
   biharmonicWeights(
     mesh: SimplexMesh,
@@ -103,6 +110,11 @@ export class Handlebody {
     options: BiharmonicWeightsOptions = {},
   ): BiharmonicWeights {
     return new BiharmonicWeights(this.#heap, mesh, handles, options);
+  }
+
+  /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
+  measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
+    return measureWeights(mesh, handles, weights);
   }
 }
 
