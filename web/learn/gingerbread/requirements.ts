@@ -3,6 +3,9 @@ import type { Lesson } from './lesson.ts';
 import { METHODS, WEIGHTS_KINDS, type WeightsKind } from './methods.ts';
 import { type Measure, measureWeights, REQUIREMENTS } from './solver.ts';
 
+/** A place to break a long name. */
+const hyphened = (name: string) => name.replace(/^(Bi|Tri)/, '$1\u00ad');
+
 /** The lecture's requirements, each kind of weights measured against them on this shape with these handles. */
 export class Requirements {
   readonly element: HTMLElement;
@@ -19,16 +22,21 @@ export class Requirements {
       const button = h(
         'button',
         { type: 'button', class: 'requirement-kind', onclick: () => choose(kind) },
-        names.get(kind) ?? kind,
+        hyphened(names.get(kind) ?? kind),
       );
-      this.#heads.set(kind, h('th', { scope: 'row' }, button));
+      this.#heads.set(kind, h('th', { scope: 'col' }, button));
       this.#cells.set(
         kind,
         REQUIREMENTS.map(() => h('td')),
       );
     }
-    const rows = WEIGHTS_KINDS.map((kind) =>
-      h('tr', {}, this.#heads.get(kind) as HTMLElement, ...(this.#cells.get(kind) as HTMLElement[])),
+    const rows = REQUIREMENTS.map(({ name }, i) =>
+      h(
+        'tr',
+        {},
+        h('th', { scope: 'row' }, name),
+        ...WEIGHTS_KINDS.map((kind) => (this.#cells.get(kind) as HTMLElement[])[i] as HTMLElement),
+      ),
     );
     this.element = h(
       'section',
@@ -37,20 +45,24 @@ export class Requirements {
       h(
         'table',
         {},
-        h(
-          'thead',
-          {},
-          h('tr', {}, h('td', {}, ''), ...REQUIREMENTS.map(({ name, said }) => h('th', { scope: 'col', title: said }, name))),
-        ),
+        h('thead', {}, h('tr', {}, h('td'), ...WEIGHTS_KINDS.map((kind) => this.#heads.get(kind) as HTMLElement))),
         h('tbody', {}, ...rows),
       ),
-      h('p', { class: 'soft small' }, REQUIREMENTS.map(({ name, said }) => `${name}: ${said}`).join(' ')),
+      h(
+        'details',
+        { class: 'soft small' },
+        h('summary', {}, 'What the numbers mean'),
+        h('dl', {}, ...REQUIREMENTS.flatMap(({ name, said }) => [h('dt', {}, name), h('dd', {}, said)])),
+      ),
     );
   }
 
   /** Marks the weights in use. */
   update(): void {
-    for (const [kind, head] of this.#heads) head.parentElement?.toggleAttribute('data-current', kind === this.#lesson.method.kind);
+    for (const [kind, head] of this.#heads) {
+      const current = kind === this.#lesson.method.kind;
+      for (const cell of [head, ...(this.#cells.get(kind) ?? [])]) cell.toggleAttribute('data-current', current);
+    }
   }
 
   /** Other handles or another mesh: measures again while nothing else happens, the slowest last. */
@@ -87,13 +99,13 @@ export class Requirements {
       cell.replaceChildren(
         ...(measure
           ? [
-              h('span', { class: 'mark', 'aria-hidden': 'true' }, measure.met ? '✓' : '✗'),
-              h('span', { class: 'unseen' }, measure.met ? 'met, ' : 'broken, '),
+              h('span', { class: 'mark', 'aria-hidden': 'true' }, measure.holds ? '✓' : '✗'),
+              h('span', { class: 'unseen' }, measure.holds ? 'holds, ' : 'broken, '),
               measure.text,
             ]
           : ['–']),
       );
-      cell.toggleAttribute('data-broken', measure?.met === false);
+      cell.toggleAttribute('data-broken', measure?.holds === false);
     });
     this.element.toggleAttribute('data-done', this.#queue.length === 0);
     this.resume();

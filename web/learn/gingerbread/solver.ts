@@ -95,35 +95,44 @@ export function energyMinimizer(hb: Handlebody, mesh: PlaneMesh, handles: readon
   return linearBlend(hb, mesh, solveWeights(hb, mesh, handles, 'harmonic').weights);
 }
 
+/** A requirement of the lecture's on weights, measured: the number at its worst, and whether it holds. */
 export interface Measure {
-  readonly met: boolean;
+  readonly holds: boolean;
   readonly text: string;
 }
 
 /** What the lecture asks of weights, in the order of the measures. */
-export const REQUIREMENTS: readonly { name: string; said: string }[] = [
-  { name: 'Sum 1', said: 'at every point the weights sum to 1 (largest difference).' },
-  { name: 'Bounded', said: 'all lie from 0 to 1 (the farthest beyond).' },
+export const REQUIREMENTS: readonly { readonly name: string; readonly said: string }[] = [
+  { name: 'Smooth', said: 'the largest jump of the gradient between triangles, as a part of the largest gradient; at most 0.5.' },
+  { name: 'Local', said: 'the largest weight where another handle is twice as near; at most 0.3.' },
+  { name: 'Shape-aware', said: 'the largest weight of a handle that is near through the air only; at most 0.25.' },
+  { name: 'Sums to 1', said: 'the largest difference of the sum from 1.' },
+  { name: 'Bounded', said: 'the farthest that a weight leaves 0 to 1.' },
 ];
 
+/** Nothing where the shape has no place to measure it. */
 export function measureWeights(
-  _hb: Handlebody,
+  hb: Handlebody,
   mesh: PlaneMesh,
   handles: readonly Handle[],
   weights: Float64Array,
 ): readonly (Measure | undefined)[] {
-  let [sumError, beyond] = [0, 0];
-  for (let i = 0; i < mesh.positions.length / 2; i++) {
-    let sum = 0;
-    for (let k = 0; k < handles.length; k++) {
-      const w = weights[i * handles.length + k] as number;
-      sum += w;
-      beyond = Math.max(beyond, -w, w - 1);
-    }
-    sumError = Math.max(sumError, Math.abs(sum - 1));
-  }
+  const { gradientJump, farWeight, leakedWeight, sumError, least, largest, holds } = hb.measureWeights(
+    { ...mesh, dimension: 2 },
+    handles.map(weightHandle),
+    weights,
+  );
+  const beyond = Math.max(-least, largest - 1, 0);
   return [
-    { met: sumError < 1e-9, text: sumError.toExponential(0) },
-    { met: beyond < 1e-9, text: beyond.toFixed(3) },
+    { holds: holds.smooth, text: gradientJump.toFixed(2) },
+    { holds: holds.local, text: farWeight.toFixed(2) },
+    Number.isNaN(leakedWeight) ? undefined : { holds: holds.shapeAware, text: leakedWeight.toFixed(2) },
+    { holds: holds.sumsToOne, text: small(sumError) },
+    { holds: holds.bounded, text: beyond < 5e-4 ? small(beyond) : beyond.toFixed(2) },
   ];
+}
+
+/** 0, or a power of ten: digits say nothing where all is rounding. */
+function small(value: number): string {
+  return value === 0 ? '0' : value.toExponential(0).replace('e-', 'e−');
 }
