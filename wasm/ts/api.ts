@@ -7,11 +7,13 @@ export {
   type GridBoundary,
   type GridMatrix,
 } from './discrete-green.ts';
+export { DualQuaternion } from './dual-quaternion.ts';
 export { type Culprit, type CulpritKind, type ErrorCode, HandlebodyError } from './errors.ts';
 export { hashPositions } from './hash.ts';
 export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { IRBF_DEFAULTS, Irbf, SOLVE_DEFAULTS } from './irbf.ts';
 export { KERNELS, type KernelFunction, type KernelInfo, type KernelName, type UserKernel } from './kernels.ts';
+export { LINEAR_BLEND_DEFAULTS, LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
 export type { Handlebody, LoadOptions } from './load.ts';
 export {
   MOVING_LEAST_SQUARES_DEFAULTS,
@@ -28,5 +30,6 @@ export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
 export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+export { SKIN_DEFAULTS, Skin, type SkinOptions } from './skin.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export type * from './types.ts';

@@ -1,10 +1,12 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
 import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
+import { DualQuaternion } from './dual-quaternion.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
@@ -13,6 +15,7 @@ import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import type { SkinOptions } from './skin.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
 
@@ -91,6 +94,16 @@ export class Handlebody {
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
     return new TensionSpline(this.#heap, options);
+  }
+
+  /** Linear blend skinning in the plane or in space. */
+  linearBlend(options: LinearBlendOptions): LinearBlend {
+    return new LinearBlend(this.#heap, options);
+  }
+
+  /** Skinning by dual quaternions: a rigid motion at every vertex. */
+  dualQuaternion(options: SkinOptions): DualQuaternion {
+    return new DualQuaternion(this.#heap, options);
   }
 }
 
