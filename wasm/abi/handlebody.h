@@ -334,6 +334,27 @@ HB_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_spar
 
 HB_API void hb_skinning_weights_free(hb_skinning_weights* weights);
 
+/* ---- skinning: a shape under a few moving handles ----------------------------------------------------------------------- */
+
+/* Rest positions (count × dimension, 2 or 3), and for each of `handle_count` handles an affine transform. */
+typedef struct hb_skin hb_skin;
+
+/* Linear blending of the transforms by `weights` (count × handle_count, any finite numbers), `compiled` into one matrix where it is 1: the
+ * same result. Fails with INVALID_SHAPE, MESH_NOT_FINITE or VALUE_NOT_FINITE (culprit: the vertex), or OUT_OF_MEMORY. */
+HB_API int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, uint32_t compiled, hb_skin** skin);
+
+/* Dual quaternion blending: of the transforms' rigid parts, to a rigid motion at every vertex. Fails likewise, or with WEIGHTS_MISSING where
+ * a vertex has no weight at all. */
+HB_API int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, hb_skin** skin);
+
+/* handle_count × dimension × (dimension + 1) numbers: T with the image T [v; 1] for each handle, the identity at first. Write it in place. */
+HB_API double* hb_skin_transforms(hb_skin* skin);
+
+/* Deformed positions (count × dimension). Allocates nothing. Fails with TARGET_NOT_FINITE (culprit: the handle) and writes nothing. */
+HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
+
+HB_API void hb_skin_free(hb_skin* skin);
+
 #ifdef __cplusplus
 }
 #endif

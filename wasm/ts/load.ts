@@ -2,10 +2,12 @@ import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
 import { BiharmonicWeights, type BiharmonicWeightsOptions } from './biharmonic-weights.ts';
 import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
+import { DualQuaternion } from './dual-quaternion.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
 import { measureWeights, type WeightMeasures } from './measure-weights.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
@@ -16,6 +18,7 @@ import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 import type { SimplexMesh } from './simplex-mesh.ts';
+import type { SkinOptions } from './skin.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
@@ -115,6 +118,16 @@ export class Handlebody {
   /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
   measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
     return measureWeights(mesh, handles, weights);
+  }
+
+  /** Linear blend skinning in the plane or in space. */
+  linearBlend(options: LinearBlendOptions): LinearBlend {
+    return new LinearBlend(this.#heap, options);
+  }
+
+  /** Skinning by dual quaternions: a rigid motion at every vertex. */
+  dualQuaternion(options: SkinOptions): DualQuaternion {
+    return new DualQuaternion(this.#heap, options);
   }
 }
 

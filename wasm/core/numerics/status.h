@@ -38,6 +38,7 @@ typedef enum hb_status {
   HB_ERROR_HANDLE_NOT_FINITE = 63,
   HB_ERROR_TARGET_NOT_FINITE = 64,
   HB_ERROR_HANDLES_MISSING = 65, /* solve() before any handle was set */
+  HB_ERROR_WEIGHTS_MISSING = 66, /* a vertex whose weights are all 0 */
 
   /* pose spaces and scattered data */
   HB_ERROR_EXAMPLE_DUPLICATE = 80, /* two examples at one place with different shapes */
