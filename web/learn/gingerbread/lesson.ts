@@ -32,6 +32,8 @@ const REST = 350;
 const EASE = 700;
 /** Frames for which iterations go on after the last change. */
 const MOST_ROUNDS = 60;
+/** Milliseconds of a frame that small pictures may take. */
+const TILES = 10;
 
 /** The shape, its handles and their pose: every change goes through here, and is solved and drawn with the next frame. */
 export class Lesson {
@@ -285,25 +287,32 @@ export class Lesson {
     this.#change();
   }
 
-  /** Draws a method's answer to the pose into a small picture; the large one is drawn again after it. */
-  drawTile(method: Method, context: CanvasRenderingContext2D): boolean {
-    if (!this.deformer) return false;
-    const { picture } = this;
+  /**
+   * Draws methods' answers to the pose into small pictures, as many as some milliseconds allow; the large one is drawn again after them.
+   * `next` gives a method and where to draw it, and hears whether that was possible.
+   */
+  drawTiles(next: () => { method: Method; context: CanvasRenderingContext2D; done(drawn: boolean): void } | undefined): void {
+    const { picture, deformer } = this;
+    if (!deformer) return;
     const now = picture.positions.slice();
-    try {
-      this.deformer.deform(method, this.experiment.handles, picture.positions);
-    } catch {
-      picture.positions.set(now);
-      return false;
-    }
-    picture.moved();
+    const until = performance.now() + TILES;
     picture.setWeight(undefined, 0, 0);
     picture.showLines(false);
-    picture.renderTile(context);
+    do {
+      const tile = next();
+      if (!tile) break;
+      try {
+        deformer.deform(tile.method, this.experiment.handles, picture.positions);
+        picture.moved();
+        picture.renderTile(tile.context);
+        tile.done(true);
+      } catch {
+        tile.done(false);
+      }
+    } while (performance.now() < until);
     picture.positions.set(now);
     picture.moved();
     this.#drawShown();
-    return true;
   }
 
   #drawShown(): void {

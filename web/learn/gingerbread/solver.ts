@@ -1,4 +1,4 @@
-import type { Handlebody, WeightHandle } from '../../../wasm/ts/index.ts';
+import type { DualQuaternion, Handlebody, LinearBlend, WeightHandle } from '../../../wasm/ts/index.ts';
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Handle } from './experiment.ts';
 import type { EnergyKind, WeightsKind } from './methods.ts';
@@ -62,36 +62,28 @@ function weightHandle({ rest, end }: Handle): WeightHandle {
   return end ? { bone: [rest, end] } : { at: rest };
 }
 
-export function linearBlend(_hb: Handlebody, mesh: PlaneMesh, weights: Float64Array): Deformation {
-  const n = mesh.positions.length / 2;
-  const h = weights.length / n;
-  const transforms = new Float64Array(6 * h);
+export function linearBlend(hb: Handlebody, { positions }: PlaneMesh, weights: Float64Array): Deformation {
+  return settled(hb.linearBlend({ dimension: 2, positions, weights }));
+}
+
+export function rigidBlend(hb: Handlebody, { positions }: PlaneMesh, weights: Float64Array): Deformation {
+  return settled(hb.dualQuaternion({ dimension: 2, positions, weights }));
+}
+
+/** Blending is done in one go. */
+function settled(skin: LinearBlend | DualQuaternion): Deformation {
   return {
-    transforms,
-    deform(out) {
-      for (let i = 0; i < n; i++) {
-        const [x, y] = [mesh.positions[2 * i] as number, mesh.positions[2 * i + 1] as number];
-        let [u, v] = [0, 0];
-        for (let k = 0; k < h; k++) {
-          const w = weights[i * h + k] as number;
-          const [a, b, c, d, e, f] = transforms.subarray(6 * k) as unknown as number[];
-          u += w * ((a as number) * x + (b as number) * y + (c as number));
-          v += w * ((d as number) * x + (e as number) * y + (f as number));
-        }
-        out[2 * i] = u;
-        out[2 * i + 1] = v;
-      }
+    transforms: skin.transforms,
+    deform: (out) => {
+      skin.deform(out);
       return false;
     },
-    dispose() {},
+    dispose: () => skin.dispose(),
   };
 }
 
-export function rigidBlend(hb: Handlebody, mesh: PlaneMesh, weights: Float64Array): Deformation {
-  return linearBlend(hb, mesh, weights);
-}
-
 export function energyMinimizer(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], _energy: EnergyKind): Deformation {
+  // TEMPORARY until energies come.
   return linearBlend(hb, mesh, solveWeights(hb, mesh, handles, 'harmonic').weights);
 }
 

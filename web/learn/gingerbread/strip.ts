@@ -9,7 +9,7 @@ interface Tile {
   readonly note: HTMLElement;
 }
 
-/** Small pictures of every method in the same pose; a click chooses the method. Drawn one by one while nothing else happens. */
+/** Small pictures of every method in the same pose; a click chooses the method. Drawn while nothing else happens. */
 export class Strip {
   readonly element: HTMLElement;
   readonly #lesson: Lesson;
@@ -51,6 +51,7 @@ export class Strip {
   refresh(): void {
     const { deformer } = this.#lesson;
     const rank = ({ method }: Tile) => (deformer?.isReady(method) ? 0 : method.kind === 'bounded' ? 2 : 1);
+    this.element.toggleAttribute('data-done', false);
     this.#queue = [...this.#tiles].sort((a, b) => rank(a) - rank(b));
     this.#schedule();
   }
@@ -72,20 +73,31 @@ export class Strip {
 
   #next(): void {
     this.#timer = undefined;
-    const tile = this.#queue.shift();
-    if (!tile) return;
-    const { method, context, note, button } = tile;
-    const ratio = Math.min(devicePixelRatio, 2);
-    const box = context.canvas.getBoundingClientRect();
-    const [width, height] = [Math.round(box.width * ratio), Math.round(box.height * ratio)];
-    if (width > 0 && (context.canvas.width !== width || context.canvas.height !== height))
-      [context.canvas.width, context.canvas.height] = [width, height];
-    const prepared = method.family !== 'irbf' || this.#lesson.deformer?.isReady(method);
-    note.hidden = Boolean(prepared);
-    const drawn = prepared && width > 0 && this.#lesson.drawTile(method, context);
-    if (!drawn) context.clearRect(0, 0, context.canvas.width, context.canvas.height);
-    button.toggleAttribute('data-drawn', Boolean(drawn));
+    this.#lesson.drawTiles(() => {
+      for (let tile = this.#queue.shift(); tile; tile = this.#queue.shift()) {
+        const { method, context, note } = tile;
+        const prepared = method.family !== 'irbf' || this.#lesson.deformer?.isReady(method) === true;
+        note.hidden = prepared;
+        if (sized(context.canvas) && prepared) return { method, context, done: (drawn) => show(tile, drawn) };
+        show(tile, false);
+      }
+      return undefined;
+    });
     this.element.toggleAttribute('data-done', this.isDone);
     if (!this.isDone) this.#schedule();
   }
+}
+
+function show({ context, button }: Tile, drawn: boolean): void {
+  if (!drawn) context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+  button.toggleAttribute('data-drawn', drawn);
+}
+
+/** Gives a canvas the pixels that it is laid out with; says whether there are any. */
+function sized(canvas: HTMLCanvasElement): boolean {
+  const ratio = Math.min(devicePixelRatio, 2);
+  const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  return width > 0 && height > 0;
 }
