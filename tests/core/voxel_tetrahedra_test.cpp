@@ -109,6 +109,15 @@ TEST_CASE("every vertex of the surface lies in its tetrahedron (seed 2111)") {
   }
 }
 
+TEST_CASE("a box whose faces run between voxels is filled exactly") {
+  const test::MadeMesh box = test::made_box({6, 2, 1}, {6, 2, 1});
+  const auto made = make_voxel_tetrahedra({box.positions, box.triangles}, 12);
+  REQUIRE(made);
+  double volume = 0;
+  for (Index t = 0; t < made->mesh.simplices.rows(); ++t) volume += signed_volume(made->mesh, t);
+  CHECK(volume == doctest::Approx(12).epsilon(1e-12));
+}
+
 TEST_CASE("an open sheet gets the voxels that it touches; loose vertices get the nearest") {
   SimplexMesh sheet;
   sheet.positions.resize(5, 3);
@@ -120,6 +129,11 @@ TEST_CASE("an open sheet gets the voxels that it touches; loose vertices get the
   CHECK(made->mesh.simplices.rows() >= 6 * 100);
   CHECK(made->mesh.simplices.rows() < 6 * 400);
   for (const double coordinate : made->coordinates[4]) CHECK(coordinate >= 0);
+  sheet.positions.col(2) *= 0;  // between two layers of voxels: both are taken
+  sheet.positions(4, 2) = 0.9;
+  const auto flat = make_voxel_tetrahedra(sheet, 10);
+  REQUIRE(flat);
+  CHECK(flat->mesh.simplices.rows() >= 6 * 100);
 }
 
 TEST_CASE("surfaces and resolutions that cannot be are refused") {
