@@ -3,8 +3,8 @@ import { describe, expect, it } from 'vitest';
 import type { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { meshArea, meshShape } from '../../web/models/mesh-shape.ts';
 import { resample, segmentDistance, simplify, withoutRepeats } from '../../web/models/resample.ts';
-import { checkShape, extentOf, shapeArea } from '../../web/models/shape.ts';
-import { centered, type Pixels, tracePicture } from '../../web/models/trace-picture.ts';
+import { centered, checkShape, extentOf, shapeArea } from '../../web/models/shape.ts';
+import { type Pixels, tracePicture } from '../../web/models/trace-picture.ts';
 
 /** A picture whose alpha is what a function says, 0 to 1, y upwards from the lower left corner. */
 function picture(width: number, height: number, alpha: (x: number, y: number) => number): Pixels {

@@ -72,6 +72,14 @@ export function extentOf(...rings: ArrayLike<number>[]): Extent {
   return { low: [left, bottom], high: [right, top] };
 }
 
+/** A shape moved to the origin and scaled, so that its longer side is `size`; and how: out = (in − middle) · scale. */
+export function centered(shape: Shape, size: number): { shape: Shape; middle: readonly [number, number]; scale: number } {
+  const { low, high } = extentOf(...shape);
+  const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2] as const;
+  const scale = size / Math.max(high[0] - low[0], high[1] - low[1], 1e-300);
+  return { shape: shape.map((ring) => ring.map((value, k) => (value - middle[k % 2 === 0 ? 0 : 1]) * scale)), middle, scale };
+}
+
 /**
  * Refuses what encloses no region. Throws `HandlebodyError`: 'outline-too-few' (a ring of fewer than three different points),
  * 'outline-not-finite', 'outline-too-fine' (more than {@link MOST_OUTLINE_POINTS}), 'outline-no-area', 'outline-crosses' (the message names

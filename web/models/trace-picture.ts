@@ -63,19 +63,3 @@ function sound(rings: readonly Ring[], size: number): Shape {
   }
   return rings;
 }
-
-/** A shape moved to the origin and scaled, so that its longer side is `size`; and how: out = (in − middle) · scale. */
-export function centered(shape: Shape, size: number): { shape: Shape; middle: readonly [number, number]; scale: number } {
-  let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const ring of shape) {
-    for (let i = 0; i < ring.length; i += 2) {
-      left = Math.min(left, ring[i] as number);
-      right = Math.max(right, ring[i] as number);
-      bottom = Math.min(bottom, ring[i + 1] as number);
-      top = Math.max(top, ring[i + 1] as number);
-    }
-  }
-  const middle = [(left + right) / 2, (bottom + top) / 2] as const;
-  const scale = size / Math.max(right - left, top - bottom, 1e-300);
-  return { shape: shape.map((ring) => ring.map((value, k) => (value - middle[k % 2 === 0 ? 0 : 1]) * scale)), middle, scale };
-}

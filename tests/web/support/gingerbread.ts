@@ -26,7 +26,8 @@ export async function bend(
   page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
   page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
   if (before) await page.addInitScript(before);
-  await page.goto(`${inject('site')}learn/gingerbread/${hash}`);
+  // What the page says of itself is waited for: a loaded machine is slow to load.
+  await page.goto(`${inject('site')}learn/gingerbread/${hash}`, { waitUntil: 'commit', timeout: 60_000 });
   await page.waitForSelector(`#lesson[data-state=${state}]`, { timeout: 60_000 });
   if (state === 'ready') await rested(page);
   return { page, said };

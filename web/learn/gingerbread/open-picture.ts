@@ -1,6 +1,6 @@
 import { HandlebodyError } from '../../../wasm/ts/errors.ts';
-import type { Shape } from '../../models/shape.ts';
-import { centered, type Pixels, tracePicture } from '../../models/trace-picture.ts';
+import { centered, type Shape } from '../../models/shape.ts';
+import { type Pixels, tracePicture } from '../../models/trace-picture.ts';
 import type { PaintedShape } from './icing.ts';
 
 /** Pixels along the longer side of the picture that is traced and shown. */

@@ -1,6 +1,5 @@
 import { simplify, withoutRepeats } from '../../models/resample.ts';
-import { checkShape, type Shape } from '../../models/shape.ts';
-import { centered } from '../../models/trace-picture.ts';
+import { centered, checkShape, type Shape } from '../../models/shape.ts';
 import { h, svg } from '../../ui/dom.ts';
 
 export interface OwnActions {
