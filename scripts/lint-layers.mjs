@@ -40,10 +40,11 @@ export const LAYERS = {
   'web/three': { may: ['wasm/ts', 'web/assets'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
   'web/ui': { may: [], packages: [] },
+  'web/stage': { may: ['web/ui'], packages: ['three'] },
   'web/element': { may: [...BASE, 'web/ui'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
-  'web/studio': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', GLTF] },
-  'web/learn': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
+  'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
+  'web/learn': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
 };
 
 /** Headers that would tie the core to one platform. */

@@ -24,6 +24,7 @@ typedef enum hb_status {
   HB_ERROR_MESH_ZERO_EXTENT = 24, /* all vertices coincide */
   HB_ERROR_MESH_NO_INTERIOR = 25, /* no voxel lies inside: an open sheet, or a grid too coarse */
   HB_ERROR_MESH_TOO_LARGE = 26,
+  HB_ERROR_MESH_DEGENERATE = 27, /* a triangle without area, a tetrahedron without volume */
 
   /* baked bodies */
   HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
@@ -73,7 +74,8 @@ typedef enum hb_culprit {
   HB_CULPRIT_CENTER = 6,
   HB_CULPRIT_BYTE = 7,
   HB_CULPRIT_POINT = 8,
-  HB_CULPRIT_QUERY = 9
+  HB_CULPRIT_QUERY = 9,
+  HB_CULPRIT_TETRAHEDRON = 10
 } hb_culprit;
 
 #endif

@@ -1,0 +1,54 @@
+#include "core/mesh/cotangent_laplacian.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+
+namespace handlebody {
+
+namespace {
+
+/** Normals of a simplex's faces or edges, across from each corner, as long as these are: gradients of the hat functions times
+ * −d·volume. */
+void face_normals(const std::array<Vector3, 4>& p, Index corners, std::array<Vector3, 4>& normals) {
+  if (corners == 3) {
+    // An edge turned by a right angle: only products of two of them matter, so that the edges themselves will do.
+    for (std::size_t k = 0; k < 3; ++k) normals[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
+    return;
+  }
+  normals[0] = (p[3] - p[1]).cross(p[2] - p[1]) / 2;
+  normals[1] = (p[2] - p[0]).cross(p[3] - p[0]) / 2;
+  normals[2] = (p[3] - p[0]).cross(p[1] - p[0]) / 2;
+  normals[3] = (p[1] - p[0]).cross(p[2] - p[0]) / 2;
+}
+
+}  // namespace
+
+SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
+  const Index corners = mesh.simplices.cols(), d = mesh.positions.cols();
+  const double order = static_cast<double>(corners) - 1;
+  SparseEntries entries(mesh.positions.rows());
+  entries.reserve(static_cast<std::size_t>(mesh.simplices.rows() * corners * corners));
+  std::array<Vector3, 4> p, normals;
+  for (Index s = 0; s < mesh.simplices.rows(); ++s) {
+    const std::uint32_t* const v = mesh.simplices.data() + s * corners;
+    for (Index k = 0; k < corners; ++k) {
+      const double* const at = mesh.positions.data() + v[k] * d;
+      p[static_cast<std::size_t>(k)] = {at[0], at[1], d == 3 ? at[2] : 0.0};
+    }
+    face_normals(p, corners, normals);
+    // ∫ ∇φᵢ·∇φⱼ = nᵢ·nⱼ / (d² volume). The diagonal is minus the others' sum, so that constants vanish to the last bit.
+    const double scale = 1 / (order * order * simplex_volume(mesh, s));
+    for (Index i = 0; i < corners; ++i) {
+      for (Index j = 0; j < i; ++j) {
+        const double entry = scale * normals[static_cast<std::size_t>(i)].dot(normals[static_cast<std::size_t>(j)]);
+        entries.put(v[i], v[j], entry);
+        entries.put(v[j], v[i], entry);
+        entries.put(v[i], v[i], -entry);
+        entries.put(v[j], v[j], -entry);
+      }
+    }
+  }
+  return entries.matrix();
+}
+
+}  // namespace handlebody

@@ -1,0 +1,14 @@
+// The Laplacian of linear finite elements (Pinkall & Polthier 1993), in its positive semidefinite form.
+#pragma once
+
+#include "core/mesh/simplex_mesh.hpp"
+#include "core/numerics/sparse_matrix.hpp"
+
+namespace handlebody {
+
+/** C, n×n and symmetric, with fᵀ C f = ∫ |∇f|² of functions that are linear on each simplex: on triangles Cᵢⱼ = −(cot αᵢⱼ + cot
+ * βᵢⱼ)/2 of the angles across the edge, and rows sum to 0. Minus the lecture's C and libigl's `cotmatrix`. No units in 2D; a length
+ * on tetrahedra. The mesh must have been checked. */
+SparseMatrix cotangent_laplacian(const SimplexMesh& mesh);
+
+}  // namespace handlebody

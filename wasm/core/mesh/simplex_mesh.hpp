@@ -1,0 +1,33 @@
+// Triangles in the plane or in space, or tetrahedra: what finite elements are made on.
+#pragma once
+
+#include "core/numerics/result.hpp"
+#include "core/numerics/sort.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+/** m×3 or m×4 vertex numbers. */
+using Simplices = Eigen::Matrix<std::uint32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct SimplexMesh {
+  Matrix positions;     // n × 2 or n × 3
+  Simplices simplices;  // m × 3: triangles; m × 4: tetrahedra, in space only
+};
+
+/** Area of a triangle or volume of a tetrahedron (without sign). */
+double simplex_volume(const SimplexMesh& mesh, Index simplex);
+
+/** Sizes that fit, finite positions, indices in range. MESH_TOO_LARGE, MESH_TOO_FEW_VERTICES, MESH_NOT_FINITE, MESH_NO_TRIANGLES,
+ *  MESH_ZERO_EXTENT or MESH_INDEX_OUT_OF_RANGE. */
+Result<Done> check_simplex_mesh(const SimplexMesh& mesh);
+
+/** No simplex is without volume (less than 1e-14 of its longest edge's square or cube), which no cotangent stands. MESH_DEGENERATE.
+ * Of a mesh that was checked. */
+Result<Done> check_volumes(const SimplexMesh& mesh);
+
+/** The number of each vertex's connected part, counted from 0 in the order of their first vertices; one in no simplex is a part of
+ * its own. */
+Numbers connected_parts(const SimplexMesh& mesh);
+
+}  // namespace handlebody

@@ -1,0 +1,155 @@
+#include "core/numerics/sparse_cholesky.hpp"
+
+#include <Eigen/SparseCore>
+// After SparseCore, on which it stands.
+#include <Eigen/OrderingMethods>
+#include <algorithm>
+
+namespace handlebody {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+constexpr double most_entries = 1.5 * 1024 * 1024 * 1024 / (sizeof(double) + sizeof(std::uint32_t));
+constexpr int together = 8;  // columns solved at once
+
+Numbers minimum_degree_order(const SparseMatrix& a) {
+  const Index n = a.rows();
+  Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(n, n);
+  pattern.resizeNonZeros(static_cast<Index>(a.columns.size()));
+  std::copy(a.starts.begin(), a.starts.end(), pattern.outerIndexPtr());
+  std::copy(a.columns.begin(), a.columns.end(), pattern.innerIndexPtr());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::internal::minimum_degree_ordering(pattern, order);
+  return {order.indices().data(), order.indices().data() + n};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a) {
+  std::unique_ptr<SparseCholesky> made(new SparseCholesky);
+  SparseCholesky& result = *made;
+  const auto n = static_cast<std::size_t>(a.rows());
+  result.order_ = minimum_degree_order(a);
+  result.place_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) result.place_[result.order_[k]] = static_cast<std::uint32_t>(k);
+
+  // Row k of L has an entry wherever the tree leads from an entry of A's row k up to k.
+  Numbers &parent = result.parent_, counts(n, 0), seen(n, none);
+  parent.assign(n, none);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    seen[k] = k;
+    const std::uint32_t row = result.order_[k];
+    for (std::uint32_t e = a.starts[row]; e < a.starts[row + 1]; ++e) {
+      std::uint32_t i = result.place_[a.columns[e]];
+      if (i > k) continue;
+      for (; seen[i] != k; i = parent[i]) {
+        if (parent[i] == none) parent[i] = k;
+        ++counts[i];
+        seen[i] = k;
+      }
+    }
+  }
+
+  double entries = 0;
+  for (const std::uint32_t count : counts) {
+    entries += count;
+    result.factor_cost_ += (count + 1.0) * (count + 1.0);
+  }
+  if (entries > most_entries) {
+    return Error(
+        HB_ERROR_OUT_OF_MEMORY,
+        {"The factor of ", n, " equations would take ", entries * (sizeof(double) + sizeof(std::uint32_t)) / 1048576, " MiB."},
+        {"Use a coarser mesh."});
+  }
+  result.starts_.assign(n + 1, 0);
+  for (std::size_t k = 0; k < n; ++k) result.starts_[k + 1] = result.starts_[k] + counts[k];
+  result.below_.resize(result.starts_.back());
+  result.factor_.resize(result.starts_.back());
+  result.pivots_.resize(n);
+  result.work_.resize(n * together);
+  return made;
+}
+
+bool SparseCholesky::factor(const SparseMatrix& a) {
+  const auto n = static_cast<std::uint32_t>(order_.size());
+  Numbers filled(starts_.begin(), starts_.end() - 1), seen(n, none), path(n);
+  std::fill(work_.begin(), work_.begin() + n, 0.0);
+  double* const y = work_.data();
+  for (std::uint32_t k = 0; k < n; ++k) {
+    // The places of row k, each before those that it changes: paths of the tree, the last found first.
+    std::uint32_t top = n;
+    double diagonal = 0;
+    seen[k] = k;
+    const std::uint32_t row = order_[k];
+    for (std::uint32_t e = a.starts[row]; e < a.starts[row + 1]; ++e) {
+      std::uint32_t i = place_[a.columns[e]];
+      if (i > k) continue;
+      if (i == k) {
+        diagonal = a.values[e];
+        continue;
+      }
+      y[i] = a.values[e];
+      std::uint32_t length = 0;
+      for (; seen[i] != k; i = parent_[i]) {
+        path[length++] = i;
+        seen[i] = k;
+      }
+      while (length > 0) path[--top] = path[--length];
+    }
+    double pivot = diagonal;
+    for (; top < n; ++top) {
+      const std::uint32_t i = path[top], end = filled[i];
+      const double value = y[i], entry = value / pivots_[i];
+      y[i] = 0;
+      const std::uint32_t* const below = below_.data();
+      const double* const column = factor_.data();
+      for (std::uint32_t e = starts_[i]; e < end; ++e) y[below[e]] -= column[e] * value;
+      pivot -= entry * value;
+      below_[end] = k;
+      factor_[end] = entry;
+      filled[i] = end + 1;
+    }
+    if (!(pivot > 1e-15 * diagonal)) return false;
+    pivots_[k] = pivot;
+  }
+  return true;
+}
+
+template <int width>
+void SparseCholesky::solve_columns(double* x, Index stride, int count) {
+  const std::size_t n = order_.size();
+  double* const y = work_.data();
+  std::fill(work_.begin(), work_.begin() + static_cast<std::ptrdiff_t>(n * width), 0.0);
+  for (std::size_t k = 0; k < n; ++k)
+    for (int j = 0; j < count; ++j) y[k * width + static_cast<std::size_t>(j)] = x[order_[k] * stride + j];
+  const std::uint32_t* const below = below_.data();
+  const double* const factor = factor_.data();
+  for (std::size_t k = 0; k < n; ++k) {
+    double own[width];
+    for (int j = 0; j < width; ++j) own[j] = y[k * width + static_cast<std::size_t>(j)];
+    for (std::uint32_t e = starts_[k]; e < starts_[k + 1]; ++e) {
+      double* const other = y + below[e] * width;
+      for (int j = 0; j < width; ++j) other[j] -= factor[e] * own[j];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    double own[width];
+    for (int j = 0; j < width; ++j) own[j] = y[k * width + static_cast<std::size_t>(j)] / pivots_[k];
+    for (std::uint32_t e = starts_[k]; e < starts_[k + 1]; ++e) {
+      const double* const other = y + below[e] * width;
+      for (int j = 0; j < width; ++j) own[j] -= factor[e] * other[j];
+    }
+    for (int j = 0; j < width; ++j) y[k * width + static_cast<std::size_t>(j)] = own[j];
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    for (int j = 0; j < count; ++j) x[order_[k] * stride + j] = y[k * width + static_cast<std::size_t>(j)];
+}
+
+void SparseCholesky::solve(double* x, Index width) {
+  if (width == 1) return solve_columns<1>(x, 1, 1);
+  for (Index done = 0; done < width; done += together)
+    solve_columns<together>(x + done, width, static_cast<int>(std::min<Index>(together, width - done)));
+}
+
+}  // namespace handlebody

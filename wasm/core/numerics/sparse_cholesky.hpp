@@ -1,0 +1,49 @@
+// A = L D Lᵀ of a sparse, symmetric, positive definite matrix: factored once, solved many times.
+//
+// Rows are put in approximate minimum degree order (Amestoy, Davis & Duff 1996: Eigen's). The elimination tree tells what a factor
+// will need before any of it is allocated (Liu 1990); factoring goes row by row (Davis 2005).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/numerics/result.hpp"
+#include "core/numerics/sparse_matrix.hpp"
+
+namespace handlebody {
+
+class SparseCholesky {
+ public:
+  /** Orders the rows of a symmetric matrix, all of whose entries are stored, and finds the pattern of its factor. Fails with
+   * OUT_OF_MEMORY where the factor would take more than 1.5 GiB, and says how much. */
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a);
+
+  /** Factors a matrix with the pattern that was analyzed. False, and no factor, where it is not positive definite to working
+   * precision. */
+  bool factor(const SparseMatrix& a);
+
+  /** x ← A⁻¹ x, rows() × `width`, row-major: columns are solved together. Not after factor() returned false. */
+  void solve(double* x, Index width = 1);
+
+  Index rows() const { return static_cast<Index>(order_.size()); }
+
+  /** Multiplications that a factorization takes, and that solving takes a column. */
+  double factor_cost() const { return factor_cost_; }
+  double solve_cost() const { return 2.0 * static_cast<double>(starts_.back()); }
+
+ private:
+  SparseCholesky() = default;
+
+  /** Columns 0 to `count` − 1 ≤ width of rows that are `stride` apart. */
+  template <int width>
+  void solve_columns(double* x, Index stride, int count);
+
+  Numbers order_, place_;   // order_[k]: the row that is eliminated as number k; place_ is its inverse
+  Numbers parent_;          // elimination tree, of places
+  Numbers starts_, below_;  // L by columns: the places below the diagonal
+  std::vector<double> factor_, pivots_;
+  std::vector<double> work_;
+  double factor_cost_ = 0;
+};
+
+}  // namespace handlebody

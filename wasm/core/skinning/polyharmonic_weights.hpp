@@ -1,0 +1,74 @@
+// Skinning weights of handles: the smoothest functions on a mesh that are 1 at their own handle and 0 at the others (lecture,
+// "Weight calculation"; Botsch & Kobbelt 2004, Jacobson et al. 2010).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/mesh/mass_matrix.hpp"
+#include "core/numerics/sparse_cholesky.hpp"
+#include "core/skinning/held_vertices.hpp"
+
+namespace handlebody {
+
+/** Least ∫|∇w|², ∫(Δw)² or ∫|∇Δw|² for the order 1, 2 or 3: wᵀ Q w with Q = C, C M⁻¹ C, C M⁻¹ C M⁻¹ C. Order 1, harmonic, has
+ * spikes at point handles; order 2, biharmonic, is smooth but leaves [0, 1]; order 3 is smoother and leaves it farther. Weights
+ * always sum to 1.
+ *
+ * The first handles are factored in: W = Q_ff⁻¹ (−Q_fp) (lecture's x = −A⁻¹ B y). Later ones are small updates of that: a vertex
+ * held anew adds the response to a force there, one let go of adds its own weight function; a dense system of as many equations
+ * sets them. Each is one solve, where not known already; where that adds up to more than a new factorization, there is one. */
+class PolyharmonicWeights {
+ public:
+  /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3. */
+  static Result<std::unique_ptr<PolyharmonicWeights>> create(SimplexMesh mesh, int order, Mass mass);
+
+  /** Computes the weights. HANDLE_* as complete(), OUT_OF_MEMORY, or SYSTEM_SINGULAR where triangles are too thin for double
+   * precision; the former handles and weights then stay. */
+  Result<Done> set_handles(HeldVertices held);
+
+  /** n × handles: rows sum to 1, e_j at vertices that handle j holds. */
+  const Matrix& weights() const { return weights_; }
+  const HeldVertices& held() const { return held_; }
+  const std::vector<Island>& islands() const { return islands_; }
+
+  /** Whether the last set_handles() factored anew. */
+  bool factored() const { return factored_; }
+
+  const SimplexMesh& mesh() const { return mesh_; }
+  const SparseMatrix& energy() const { return energy_; }
+  const Vector& mass() const { return mass_; }
+
+ private:
+  /** How to come from the factored handles to others. */
+  struct Change {
+    std::vector<std::uint32_t> target;  // for each factored handle, the handle that its vertices belong to now, or none
+    Numbers released, added;            // vertices
+    Numbers new_owner;                  // of each added vertex
+  };
+
+  PolyharmonicWeights() = default;
+
+  Result<Done> factor(const HeldVertices& held);
+  bool find_change(const HeldVertices& held, Change& change) const;
+  bool pays(const Change& change) const;
+  bool update(const HeldVertices& held, const Change& change);
+
+  SimplexMesh mesh_;
+  Numbers parts_;
+  SparseMatrix energy_;
+  Vector mass_;
+
+  std::unique_ptr<SparseCholesky> cholesky_;  // of Q_ff
+  HeldVertices factored_held_;
+  Numbers number_of_;  // of each vertex among the free ones
+  Numbers free_;
+  Matrix factored_weights_;
+
+  Matrix weights_;
+  HeldVertices held_;
+  std::vector<Island> islands_;
+  bool factored_ = false;
+};
+
+}  // namespace handlebody
