@@ -48,6 +48,10 @@ inline Matrix compose(const Matrix& a, const Matrix& b) {
   return affine(MatrixXd(a.leftCols(d)) * b.leftCols(d), MatrixXd(a.leftCols(d)) * b.col(d) + a.col(d));
 }
 
+inline WeightedShape shape_of(const Matrix& positions, const Matrix& weights) {
+  return {positions.data(), weights.data(), positions.rows(), positions.cols(), weights.cols()};
+}
+
 inline void set_transform(Skin& skin, Index handle, const Matrix& t) {
   Eigen::Map<Matrix>(skin.transforms() + handle * t.size(), t.rows(), t.cols()) = t;
 }

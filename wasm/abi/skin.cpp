@@ -16,15 +16,14 @@ struct hb_skin {
 
 namespace {
 
-template <typename Method>
-int32_t deliver(Result<Method> made, hb_skin** out) {
+int32_t deliver(Result<std::unique_ptr<Skin>> made, hb_skin** out) {
   if (!made) return fail(made.error());
-  *out = new hb_skin{std::make_unique<Method>(std::move(*made))};
+  *out = new hb_skin{std::move(*made)};
   return HB_OK;
 }
 
-Eigen::Map<const Matrix> rows(const double* numbers, uint32_t count, uint32_t columns) {
-  return {numbers, static_cast<Index>(count), static_cast<Index>(columns)};
+WeightedShape shape(const double* positions, const double* weights, uint32_t count, uint32_t dimension, uint32_t handle_count) {
+  return {positions, weights, static_cast<Index>(count), static_cast<Index>(dimension), static_cast<Index>(handle_count)};
 }
 
 }  // namespace
@@ -34,12 +33,12 @@ extern "C" {
 int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                uint32_t handle_count, uint32_t compiled, hb_skin** skin) {
   const auto form = compiled == 0 ? LinearBlendForm::direct : LinearBlendForm::compiled;
-  return deliver(LinearBlend::create(rows(positions, count, dimension), rows(weights, count, handle_count), form), skin);
+  return deliver(linear_blend(shape(positions, weights, count, dimension, handle_count), form), skin);
 }
 
 int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                   uint32_t handle_count, hb_skin** skin) {
-  return deliver(DualQuaternion::create(rows(positions, count, dimension), rows(weights, count, handle_count)), skin);
+  return deliver(dual_quaternion_blend(shape(positions, weights, count, dimension, handle_count)), skin);
 }
 
 double* hb_skin_transforms(hb_skin* skin) {

@@ -1,5 +1,5 @@
-// The native side of the skinning benchmark: the same calls through the same C interface as the wasm side, on made data of the same sizes.
-// Prints one JSON object of milliseconds.
+// The native side of the skinning benchmark: the same calls through the same C interface as the wasm side, on made data of the same
+// sizes. Prints one JSON object of milliseconds.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

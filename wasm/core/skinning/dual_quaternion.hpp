@@ -12,35 +12,11 @@
 // as in linear_blend.hpp: identities leave every vertex exactly where it was.
 #pragma once
 
-#include <vector>
-
 #include "core/skinning/skin.hpp"
 
 namespace handlebody {
 
-class DualQuaternion final : public Skin {
- public:
-  /** `positions` n×d, `weights` n×h. Fails as check_skin() does, or with WEIGHTS_MISSING (culprit: the vertex). */
-  static Result<DualQuaternion> create(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights);
-
- private:
-  /** w, x, y, z of a quaternion, or the real and the dual complex number of a motion in the plane. */
-  using Quad = float __attribute__((vector_size(16)));
-
-  DualQuaternion(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights);
-
-  void move(float* out) override;
-  void read_motions();
-  template <Index d>
-  void move_all(float* out) const;
-
-  Vector center_;
-  Matrix regions_;                    // h×d: where handles act, from the center
-  std::vector<float> rest_;           // n×d
-  std::vector<float> weights_;        // n×h, every row's largest ±1
-  std::vector<std::uint32_t> pivot_;  // n
-  std::vector<Quad> motions_;         // real and dual, or in the plane both in one, a handle
-  std::vector<float> sides_;          // h×h: whether two motions' real parts point to the same side, ±1
-};
+/** Fails as check_shape() does, or with WEIGHTS_MISSING (culprit: the vertex) where all weights of a vertex are 0. */
+Result<std::unique_ptr<Skin>> dual_quaternion_blend(const WeightedShape& shape);
 
 }  // namespace handlebody

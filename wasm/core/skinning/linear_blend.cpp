@@ -7,111 +7,147 @@
 namespace handlebody {
 namespace {
 
-constexpr Index lanes = 4;
+/** Vertices go in tiles of eight, their numbers in pairs of a vector type of the compiler's (see frame_kernel.hpp). */
+constexpr Index lanes = 8;
+using Quad = float __attribute__((vector_size(16)));
 
-}  // namespace
+class LinearBlend final : public Skin {
+ public:
+  LinearBlend(const WeightedShape& shape, LinearBlendForm form);
 
-Result<LinearBlend> LinearBlend::create(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights,
-                                        LinearBlendForm form) {
-  const double n = static_cast<double>(positions.rows()), d = static_cast<double>(positions.cols()),
-               h = static_cast<double>(weights.cols() + 1);
-  const double floats = n * (d + (form == LinearBlendForm::compiled ? (d + 1) * h : h)) + 4 * (d + 1) * d * h;
-  if (auto fine = check_skin(positions, weights, floats); !fine) return fine.error();
-  return LinearBlend(positions, weights, form);
+ private:
+  void move(float* out) override;
+  void stack_transforms();
+  template <Index d, bool compiled>
+  void move_tiles(float* out) const;
+
+  bool compiled_;
+  Index first_ = 0;  // number of the handle that the others are blended beyond; −1 for the one of what is lacking
+  double center_[3] = {};
+  std::vector<Quad>
+      stacked_;  // row by row of the transforms: handle 0's m₀, then mⱼ − m₀, d + 1 numbers each, all lanes of a quad alike
+  std::vector<Quad> tiles_;  // d pairs of vᵢ, then wᵢⱼ for all j but 0 or, compiled, wᵢⱼ [x; 1]
+};
+
+double lacking(const double* weights, Index handles) {
+  double sum = 0;
+  for (Index j = 0; j < handles; ++j) sum += weights[j];
+  return 1 - sum;
 }
 
-LinearBlend::LinearBlend(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights, LinearBlendForm form)
-    : Skin(positions.rows(), positions.cols(), weights.cols()), form_(form), columns_(handles_), center_(box_center(positions)) {
-  const Index n = vertices_, d = dimension_, tiles = (n + lanes - 1) / lanes;
-  Vector lacking(n);
-  for (Index i = 0; i < n; ++i) {
-    double sum = 0;
-    for (Index j = 0; j < handles_; ++j) sum += weights(i, j);
-    lacking[i] = 1 - sum;
-    if (std::abs(lacking[i]) > 1e-9) columns_ = handles_ + 1;
-  }
-  for (Index axis = 0; axis < d; ++axis) center_[axis] = static_cast<float>(center_[axis]);
-  const Index rows = form == LinearBlendForm::direct ? 1 : d + 1;
-  rest_.assign(static_cast<std::size_t>(tiles * d), Quad{});
-  weights_.assign(static_cast<std::size_t>(tiles * columns_ * rows), Quad{});
-  stacked_.assign(static_cast<std::size_t>(columns_ * d * (d + 1)), Quad{});
-  for (Index i = 0; i < n; ++i) {
-    const Index tile = i / lanes, lane = i % lanes;
-    for (Index axis = 0; axis < d; ++axis) rest_[tile * d + axis][lane] = static_cast<float>(positions(i, axis));
-    Quad* row = weights_.data() + tile * columns_ * rows;
-    for (Index j = 0; j < columns_; ++j) {
-      const double w = j < handles_ ? weights(i, j) : lacking[i];
-      for (Index axis = 0; axis < rows - 1; ++axis) (*row++)[lane] = static_cast<float>(w * (positions(i, axis) - center_[axis]));
-      (*row++)[lane] = static_cast<float>(w);
+LinearBlend::LinearBlend(const WeightedShape& shape, LinearBlendForm form)
+    : Skin(shape.vertices, shape.dimension, shape.handles), compiled_(form == LinearBlendForm::compiled) {
+  const Index d = dimension_;
+  box_center(shape.positions, vertices_, d, center_);
+  for (Index i = 0; i < vertices_; ++i)
+    if (std::abs(lacking(shape.weights + i * handles_, handles_)) > 1e-9) first_ = -1;
+  const Index others = handles_ - 1 - first_, size = 2 * (d + others * (compiled_ ? d + 1 : 1));
+  stacked_ = std::vector<Quad>(static_cast<std::size_t>((1 + others) * d * (d + 1)));
+  tiles_ = std::vector<Quad>(static_cast<std::size_t>((vertices_ + lanes - 1) / lanes * size));
+  for (Index i = 0; i < vertices_; ++i) {
+    float* out = reinterpret_cast<float*>(tiles_.data() + i / lanes * size) + i % lanes;
+    const double *position = shape.positions + i * d, *weights = shape.weights + i * handles_;
+    for (Index axis = 0; axis < d; ++axis, out += lanes) *out = static_cast<float>(position[axis]);
+    for (Index j = first_ + 1; j < handles_; ++j) {
+      for (Index axis = 0; compiled_ && axis < d; ++axis, out += lanes)
+        *out = static_cast<float>(weights[j] * (position[axis] - center_[axis]));
+      *out = static_cast<float>(weights[j]);
+      out += lanes;
     }
   }
 }
 
 void LinearBlend::stack_transforms() {
-  const Index d = dimension_;
+  const Index d = dimension_, size = d * (d + 1);
   Quad* out = stacked_.data();
-  for (Index j = 0; j < columns_; ++j)
-    for (Index row = 0; row < d; ++row) {
-      const double* t = j < handles_ ? transforms_.data() + (j * d + row) * (d + 1) : nullptr;
-      double image = t ? t[d] : 0;  // of c
-      for (Index axis = 0; axis < d; ++axis) {
-        const double a = t ? t[axis] : 0;
-        image += a * center_[axis];
-        *out++ = Quad{} + static_cast<float>(axis == row ? a - 1 : a);
+  for (Index row = 0; row < d; ++row) {
+    double reference[4] = {};
+    for (Index j = first_; j < handles_; ++j) {
+      const double* t = j < 0 ? nullptr : transforms_.data() + j * size + row * (d + 1);
+      double shift = (t ? t[d] : 0) - center_[row];
+      for (Index k = 0; k <= d; ++k) {
+        const double a = t && k < d ? t[k] : 0;
+        if (k < d) shift += a * center_[k];
+        const double number = k == d ? shift : k == row ? a - 1 : a;
+        *out++ = Quad{} + static_cast<float>(number - reference[k]);
+        if (j == first_) reference[k] = number;
       }
-      *out++ = Quad{} + static_cast<float>(image - center_[row]);
     }
-}
-
-/** Rows of four vertices, of which the last tile may have fewer. */
-template <Index d, typename Quad>
-static void store(const Quad* moved, Index count, float* out) {
-  for (Index lane = 0; lane < std::min(lanes, count); ++lane)
-    for (Index axis = 0; axis < d; ++axis) *out++ = moved[axis][lane];
-}
-
-template <Index d>
-void LinearBlend::move_direct(float* out) const {
-  const Quad *rest = rest_.data(), *weight = weights_.data();
-  Quad center[d];
-  for (Index axis = 0; axis < d; ++axis) center[axis] = Quad{} + static_cast<float>(center_[axis]);
-  for (Index left = vertices_; left > 0; left -= lanes, rest += d, out += lanes * d) {
-    Quad blend[d * (d + 1)] = {};
-    const Quad* transform = stacked_.data();
-    for (Index j = 0; j < columns_; ++j, ++weight, transform += d * (d + 1))
-      for (Index k = 0; k < d * (d + 1); ++k) blend[k] += *weight * transform[k];
-    Quad moved[d];
-    for (Index row = 0; row < d; ++row) {
-      moved[row] = blend[row * (d + 1) + d];
-      for (Index axis = 0; axis < d; ++axis) moved[row] += blend[row * (d + 1) + axis] * (rest[axis] - center[axis]);
-      moved[row] += rest[row];
-    }
-    store<d>(moved, left, out);
   }
 }
 
+/** Rows of four vertices from d quads of their coordinates, and in space one number more: overwritten by the next. */
 template <Index d>
-void LinearBlend::move_compiled(float* out) const {
-  const Quad *rest = rest_.data(), *compiled = weights_.data();
-  for (Index left = vertices_; left > 0; left -= lanes, rest += d, out += lanes * d) {
-    Quad moved[d] = {};
-    const Quad* transform = stacked_.data();
-    for (Index j = 0; j < columns_; ++j, compiled += d + 1, transform += d * (d + 1))
-      for (Index row = 0; row < d; ++row)
-        for (Index k = 0; k <= d; ++k) moved[row] += compiled[k] * transform[row * (d + 1) + k];
-    for (Index row = 0; row < d; ++row) moved[row] += rest[row];
-    store<d>(moved, left, out);
+void store(const Quad* moved, float* out) {
+  using Unaligned = float __attribute__((vector_size(16), aligned(4)));
+  const auto put = [](float* to, Quad row) { *reinterpret_cast<Unaligned*>(to) = row; };
+  const Quad low = __builtin_shufflevector(moved[0], moved[1], 0, 4, 1, 5),
+             high = __builtin_shufflevector(moved[0], moved[1], 2, 6, 3, 7);
+  if constexpr (d == 2) {
+    put(out, low);
+    put(out + 4, high);
+  } else {
+    const Quad z = moved[2], below = __builtin_shufflevector(z, z, 0, 0, 1, 1), above = __builtin_shufflevector(z, z, 2, 2, 3, 3);
+    put(out, __builtin_shufflevector(low, below, 0, 1, 4, 5));
+    put(out + 3, __builtin_shufflevector(low, below, 2, 3, 6, 7));
+    put(out + 6, __builtin_shufflevector(high, above, 0, 1, 4, 5));
+    put(out + 9, __builtin_shufflevector(high, above, 2, 3, 6, 7));
+  }
+}
+
+/** t · [x; 1] of every other quad of x, in pairs; with `all`, t · x of one more. */
+template <Index d, bool all = false>
+Quad dot(const Quad* t, const Quad* x) {
+  const Quad last = all ? t[d] * x[2 * d] : t[d];
+  if constexpr (d == 2) return t[0] * x[0] + (t[1] * x[2] + last);
+  return (t[0] * x[0] + t[1] * x[2]) + (t[2] * x[4] + last);
+}
+
+/** One row of the transforms at a time: what a turn of the inner loop takes fits the sixteen registers that engines use. */
+template <Index d, bool compiled>
+void LinearBlend::move_tiles(float* out) const {
+  const Index others = handles_ - 1 - first_, columns = compiled ? d + 1 : 1;
+  const Quad* tile = tiles_.data();
+  for (Index left = vertices_; left > 0; left -= lanes, out += lanes * d) {
+    const Quad *const rest = tile, *t = stacked_.data();
+    Quad x[2 * d], low[d], high[d];
+    for (Index k = 0; k < 2 * d; ++k) x[k] = rest[k] - static_cast<float>(center_[k / 2]);
+    tile = rest + 2 * (d + others * columns);
+    for (Index row = 0; row < d; ++row) {
+      Quad a = dot<d>(t, x), b = dot<d>(t, x + 1);
+      t += d + 1;
+      for (const Quad* w = rest + 2 * d; w != tile; w += 2 * columns, t += d + 1) {
+        a += compiled ? dot<d, true>(t, w) : dot<d>(t, x) * w[0];
+        b += compiled ? dot<d, true>(t, w + 1) : dot<d>(t, x + 1) * w[1];
+      }
+      low[row] = a + rest[2 * row];
+      high[row] = b + rest[2 * row + 1];
+    }
+    float last[lanes * d + 1];
+    float* const to = left > lanes ? out : last;
+    store<d>(low, to);
+    store<d>(high, to + 4 * d);
+    if (left <= lanes) std::copy(last, last + left * d, out);
   }
 }
 
 void LinearBlend::move(float* out) {
   stack_transforms();
-  const bool direct = form_ == LinearBlendForm::direct;
   if (dimension_ == 2) {
-    direct ? move_direct<2>(out) : move_compiled<2>(out);
+    compiled_ ? move_tiles<2, true>(out) : move_tiles<2, false>(out);
   } else {
-    direct ? move_direct<3>(out) : move_compiled<3>(out);
+    compiled_ ? move_tiles<3, true>(out) : move_tiles<3, false>(out);
   }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Skin>> linear_blend(const WeightedShape& shape, LinearBlendForm form) {
+  const double n = static_cast<double>(shape.vertices), d = static_cast<double>(shape.dimension),
+               h = static_cast<double>(shape.handles + 1);
+  const double floats = n * (d + (form == LinearBlendForm::compiled ? (d + 1) * h : h)) + 4 * (d + 1) * d * h;
+  if (auto fine = check_shape(shape, floats); !fine) return fine.error();
+  return std::unique_ptr<Skin>(std::make_unique<LinearBlend>(shape, form));
 }
 
 }  // namespace handlebody

@@ -23,14 +23,13 @@ Skin::Skin(Index vertices, Index dimension, Index handles)
     : vertices_(vertices),
       dimension_(dimension),
       handles_(handles),
-      transforms_(Vector::Zero(handles * dimension * (dimension + 1))) {
-  for (Index j = 0; j < handles; ++j)
-    for (Index axis = 0; axis < dimension; ++axis) transforms_[(j * dimension + axis) * (dimension + 1) + axis] = 1;
+      transforms_(static_cast<std::size_t>(handles * dimension * (dimension + 1))) {
+  for (Index row = 0; row < handles * dimension; ++row) transforms_[row * (dimension + 1) + row % dimension] = 1;
 }
 
 Result<Done> Skin::deform(float* out) {
-  const Index bad = first_unfit(transforms_.data(), transforms_.size()), size = dimension_ * (dimension_ + 1);
-  if (bad < transforms_.size())
+  const Index size = dimension_ * (dimension_ + 1), numbers = handles_ * size, bad = first_unfit(transforms_.data(), numbers);
+  if (bad < numbers)
     return Error(HB_ERROR_TARGET_NOT_FINITE,
                  {"Number ", bad % size, " of the transform of handle ", bad / size, " is ", transforms_[bad], "."},
                  {"Write finite numbers of single precision's range."}, HB_CULPRIT_HANDLE, bad / size);
@@ -38,38 +37,33 @@ Result<Done> Skin::deform(float* out) {
   return Done{};
 }
 
-Result<Done> check_skin(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights, double floats) {
-  const Index n = positions.rows(), d = positions.cols(), h = weights.cols();
+Result<Done> check_shape(const WeightedShape& shape, double floats) {
+  const auto [positions, weights, n, d, h] = shape;
   if (d != 2 && d != 3)
     return Error(HB_ERROR_INVALID_SHAPE, {"Positions have ", d, " coordinates."}, {"Use 2 in the plane, 3 in space."});
-  if (n == 0 || h == 0)
+  if (n <= 0 || h <= 0)
     return Error(HB_ERROR_INVALID_SHAPE, {"There are ", n, " vertices and ", h, " handles."}, {"Give one or more of both."});
-  if (weights.rows() != n)
-    return Error(HB_ERROR_INVALID_SHAPE, {"There are ", weights.rows(), " rows of weights for ", n, " vertices."},
-                 {"Give every vertex one weight a handle."});
   if (!(floats <= 0x1p28))
     return Error(HB_ERROR_OUT_OF_MEMORY, {"Blending ", n, " vertices by ", h, " handles takes ", floats * 4e-9, " GB."},
                  {"Use fewer vertices or fewer handles."});
-  if (const Index i = first_unfit(positions.data(), n * d); i < n * d)
-    return Error(HB_ERROR_MESH_NOT_FINITE, {"Coordinate ", i % d, " of vertex ", i / d, " is ", positions.data()[i], "."},
+  if (const Index i = first_unfit(positions, n * d); i < n * d)
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"Coordinate ", i % d, " of vertex ", i / d, " is ", positions[i], "."},
                  {"Give finite coordinates of single precision's range."}, HB_CULPRIT_VERTEX, i / d);
-  if (const Index i = first_unfit(weights.data(), n * h); i < n * h)
-    return Error(HB_ERROR_VALUE_NOT_FINITE, {"The weight of handle ", i % h, " at vertex ", i / h, " is ", weights.data()[i], "."},
+  if (const Index i = first_unfit(weights, n * h); i < n * h)
+    return Error(HB_ERROR_VALUE_NOT_FINITE, {"The weight of handle ", i % h, " at vertex ", i / h, " is ", weights[i], "."},
                  {"Give finite weights."}, HB_CULPRIT_VERTEX, i / h);
   return Done{};
 }
 
-Vector box_center(const Eigen::Ref<const Matrix>& positions) {
-  Vector center(positions.cols());
-  for (Index axis = 0; axis < center.size(); ++axis) {
-    double low = positions(0, axis), high = low;
-    for (Index i = 1; i < positions.rows(); ++i) {
-      low = std::min(low, positions(i, axis));
-      high = std::max(high, positions(i, axis));
+void box_center(const double* positions, Index vertices, Index dimension, double* center) {
+  for (Index axis = 0; axis < dimension; ++axis) {
+    double low = positions[axis], high = low;
+    for (Index i = 1; i < vertices; ++i) {
+      low = std::min(low, positions[i * dimension + axis]);
+      high = std::max(high, positions[i * dimension + axis]);
     }
-    center[axis] = low / 2 + high / 2;
+    center[axis] = static_cast<float>((low + high) / 2);
   }
-  return center;
 }
 
 }  // namespace handlebody

@@ -2,6 +2,9 @@
 // and h handles, each with an affine transform Tⱼ. What the handles do to the shape is the method's.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
@@ -29,15 +32,21 @@ class Skin {
   virtual void move(float* out) = 0;
 
   Index vertices_, dimension_, handles_;
-  Vector transforms_;
+  std::vector<double> transforms_;
 };
 
-/** Checks what blending starts from: `positions` n×d and `weights` n×h. Fails with INVALID_SHAPE (d other than 2 and 3, no vertex,
- * no handle, or another n), MESH_NOT_FINITE, VALUE_NOT_FINITE (culprits: the vertex) where a number is NaN, infinite or too large
- * for single precision, or OUT_OF_MEMORY where `floats`, which the method is going to keep, are more than a GiB. */
-Result<Done> check_skin(const Eigen::Ref<const Matrix>& positions, const Eigen::Ref<const Matrix>& weights, double floats);
+/** What blending starts from, row-major: `positions` vertices × dimension, `weights` vertices × handles. */
+struct WeightedShape {
+  const double *positions, *weights;
+  Index vertices, dimension, handles;
+};
 
-/** The middle of the bounding box: what float arithmetic should be relative to. */
-Vector box_center(const Eigen::Ref<const Matrix>& positions);
+/** Fails with INVALID_SHAPE (a dimension other than 2 and 3, no vertex, no handle), MESH_NOT_FINITE or VALUE_NOT_FINITE (culprits:
+ * the vertex) where a number is NaN, infinite or too large for single precision, or OUT_OF_MEMORY where `floats`, which the method
+ * is going to keep, are more than a GiB. */
+Result<Done> check_shape(const WeightedShape& shape, double floats);
+
+/** The middle of the bounding box, as floats hold it: what single precision should be relative to. */
+void box_center(const double* positions, Index vertices, Index dimension, double* center);
 
 }  // namespace handlebody
