@@ -5,7 +5,7 @@ import { byId, h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import { ColorMap } from '../interpolation/color-map.ts';
 import { initial, MOST_ADDRESS_POINTS } from './address.ts';
-import { type ShapeName, tidy, VERTICES } from './experiment.ts';
+import { type Handle, type ShapeName, tidy, VERTICES } from './experiment.ts';
 import { HandlePanel } from './handle-panel.ts';
 import { Handles } from './handles.ts';
 import type { PaintedShape } from './icing.ts';
@@ -267,7 +267,7 @@ export class Page {
     this.#weightBox.disabled = !weightsOf(method);
     this.#remove.disabled = !handles[picked];
     this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
-    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles.length)}`);
+    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`);
     if (method.family === 'irbf') void this.#bake(method);
   }
 
@@ -384,11 +384,12 @@ function portable(outline: Shape): Shape {
   return shape;
 }
 
-function captionOf(method: Method, handles: number): string {
-  const kind = weightsOf(method);
-  if (handles === 0) return 'without a handle: the shape rests.';
-  if (kind)
-    return method.family === 'linear' ? 'weights, transformations blended linearly.' : 'weights, rotations blended as rotations.';
+function captionOf(method: Method, handles: readonly Handle[]): string {
+  if (handles.length === 0) return 'without a handle: the shape rests.';
+  const turned = handles.some(({ turn }) => Math.abs(turn) > 120);
+  if (method.family === 'linear')
+    return `weights, transformations blended linearly.${turned ? ' Where a turn fades out, the shape collapses: look at Rigid.' : ''}`;
+  if (method.family === 'rigid') return `weights, rotations blended as rotations.${turned ? ' Nothing collapses.' : ''}`;
   return method.family === 'energy' ? 'under the same handles, without weights.' : 'on the shape as a thin slab.';
 }
 

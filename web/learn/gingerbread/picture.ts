@@ -41,8 +41,10 @@ export class Picture {
   readonly #lineMaterial = new LineBasicMaterial({ color: 0x1c1e23, transparent: true, opacity: 0.35, depthTest: false });
   #geometry = new BufferGeometry();
   #lines = new BufferGeometry();
+  #border = new BufferGeometry();
   #mesh = new Mesh();
   #wires = new LineSegments();
+  #rim = new LineSegments();
   #middle: Place = [0, 0];
   #half: Place = [1, 1];
   #size: Place = [1, 1];
@@ -73,15 +75,18 @@ export class Picture {
     this.#uniforms.colors.value = table;
     this.#mesh = new Mesh(this.#geometry, this.#material);
     this.#wires = new LineSegments(this.#lines, this.#lineMaterial);
-    for (const object of [this.#mesh, this.#wires]) object.frustumCulled = false;
-    this.#scene.add(this.#mesh, this.#wires);
+    // Sets dark colors off from a dark ground.
+    this.#rim = new LineSegments(this.#border, new LineBasicMaterial({ color: 0x8f93a3, depthTest: false }));
+    for (const object of [this.#mesh, this.#wires, this.#rim]) object.frustumCulled = false;
+    this.#scene.add(this.#mesh, this.#wires, this.#rim);
     canvas.addEventListener('webglcontextrestored', () => this.render());
   }
 
   /** Another shape: its mesh at rest and its picture. */
-  setMesh({ positions, triangles }: PlaneMesh, { canvas, low, high }: PaintedShape): void {
+  setMesh({ positions, triangles, border }: PlaneMesh, { canvas, low, high }: PaintedShape): void {
     this.#geometry.dispose();
     this.#lines.dispose();
+    this.#border.dispose();
     const n = positions.length / 2;
     const position = new BufferAttribute(Float32Array.from(positions), 2);
     position.setUsage(DynamicDrawUsage);
@@ -92,7 +97,9 @@ export class Picture {
       .setIndex(new BufferAttribute(triangles, 1));
     this.#lines = new BufferGeometry().setAttribute('position', position).setIndex(new BufferAttribute(edgesOf(triangles, n), 1));
     this.#mesh.geometry = this.#geometry;
+    this.#border = new BufferGeometry().setAttribute('position', position).setIndex(new BufferAttribute(border, 1));
     this.#wires.geometry = this.#lines;
+    this.#rim.geometry = this.#border;
     const texture = new CanvasTexture(canvas);
     texture.colorSpace = NoColorSpace;
     texture.anisotropy = 4;
@@ -124,6 +131,9 @@ export class Picture {
     if (weights) for (let i = 0; i < out.length; i++) out[i] = weights[i * columns + column] as number;
     attribute.needsUpdate = true;
     this.#uniforms.showWeight.value = weights ? 1 : 0;
+    this.#rim.visible = weights !== undefined;
+    this.#lineMaterial.color.set(weights ? 0xffffff : 0x1c1e23);
+    this.#lineMaterial.opacity = weights ? 0.22 : 0.35;
   }
 
   showLines(shown: boolean): void {

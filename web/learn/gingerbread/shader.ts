@@ -26,10 +26,11 @@ export const FRAGMENT = /* glsl */ `
     float gray = dot(base, vec3(0.299, 0.587, 0.114));
     color = color * (0.86 + 0.22 * gray);
 
-    // Beyond 0 and 1 hatched, in pixels of the screen.
+    // Beyond 0 and 1 hatched, in pixels of the screen, the stronger the farther.
     float beyond = max(-vWeight, vWeight - 1.0);
-    float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
-    color = mix(color, vWeight < 0.0 ? vec3(0.93, 0.42, 0.66) : vec3(0.75, 0.3, 0.05), stripe * smoothstep(0.001, 0.004, beyond) * 0.85);
+    float stripe = step(0.62, fract((gl_FragCoord.x + gl_FragCoord.y) / 12.0));
+    float strength = step(0.002, beyond) * (0.3 + 0.6 * smoothstep(0.0, 0.12, beyond));
+    color = mix(color, vWeight < 0.0 ? vec3(0.93, 0.42, 0.66) : vec3(0.75, 0.3, 0.05), stripe * strength);
 
     // A line at every tenth, none where the weight is flat.
     float level = vWeight * 10.0;
