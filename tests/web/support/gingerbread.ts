@@ -70,7 +70,7 @@ export async function spoken(page: Page, i: number): Promise<number[]> {
 
 /** The shape without what lies over it. */
 export async function picture(page: Page): Promise<PNG> {
-  const style = '.overlay, .note, .legend, .own, .veil { visibility: hidden !important; }';
+  const style = '.overlay, .trouble, .note, .legend, .own, .veil { visibility: hidden !important; }';
   return PNG.sync.read(await page.locator('#picture').screenshot({ style, animations: 'disabled' }));
 }
 
