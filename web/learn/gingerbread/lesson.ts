@@ -1,6 +1,6 @@
 import { HandlebodyError } from '../../../wasm/ts/errors.ts';
 import type { Handlebody } from '../../../wasm/ts/index.ts';
-import { meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
+import { meshShape, type PlaneMesh, triangleArea } from '../../models/mesh-shape.ts';
 import { inside, type Shape } from '../../models/shape.ts';
 import { readable } from '../../ui/dom.ts';
 import { fromAddress, toAddress } from './address.ts';
@@ -266,6 +266,15 @@ export class Lesson {
     const handle = this.handles[i] as Handle;
     const [x, y] = placeOf(handle);
     return `${handle.end ? 'Bone' : 'Handle'} ${i}, x ${readable(x)}, y ${readable(y)}, turned ${readable(handle.turn, 0)}°`;
+  }
+
+  /** How many triangles are turned over as the shape is drawn. */
+  flips(): number {
+    const { positions } = this.picture;
+    const { triangles } = this.mesh;
+    let count = 0;
+    for (let t = 0; t < triangles.length; t += 3) if (triangleArea(positions, triangles, t) < 0) count++;
+    return count;
   }
 
   /** Handles as they are drawn, on their way to a pose. */

@@ -32,6 +32,7 @@ export class Page {
   readonly #note = byId('note');
   readonly #trouble = byId('trouble');
   readonly #caption = h('p', { class: 'caption' });
+  readonly #flips = h('span', {});
   readonly #legend: HTMLElement;
   readonly #poses = h('div', { class: 'poses', role: 'group', 'aria-label': 'Poses' });
   readonly #facts = h('p', { class: 'soft small' });
@@ -267,7 +268,7 @@ export class Page {
     this.#weightBox.disabled = !weightsOf(method);
     this.#remove.disabled = !handles[picked];
     this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
-    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`);
+    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`, this.#flips);
     if (method.family === 'irbf') void this.#bake(method);
   }
 
@@ -300,6 +301,8 @@ export class Page {
       this.#requirements.refresh();
     } else this.#requirements.resume();
     this.#tellIslands();
+    const flips = lesson.flips();
+    this.#flips.textContent = flips === 0 ? '' : ` ${flips} ${flips === 1 ? 'triangle is' : 'triangles are'} turned over.`;
     this.#strip.refresh();
     this.#main.dataset.rest = 'yes';
   }
