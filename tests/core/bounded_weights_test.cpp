@@ -25,8 +25,9 @@ struct Problem {
 Problem made(const SimplexMesh& mesh, const HeldVertices& held) {
   auto weights = PolyharmonicWeights::create(mesh, 2, Mass::voronoi);
   REQUIRE(weights);
-  REQUIRE(weights->set_handles(held));
-  return {weights->energy(), weights->mass(), weights->held(), weights->weights()};
+  PolyharmonicWeights& made = **weights;
+  REQUIRE(made.set_handles(held));
+  return {made.energy(), made.mass(), made.held(), made.weights()};
 }
 
 BoundedWeights created(const Problem& problem, const BoundedWeightsOptions& options = {}) {
