@@ -36,7 +36,7 @@ export const LAYERS = {
   'wasm/abi': { may: CORE },
   'wasm/ts': { may: [], packages: [], lazy: ['node:'], never: ['three', GLTF], globals: ['document', 'window'] },
   'web/assets': { may: ['wasm/ts'], packages: [GLTF], never: ['three'] },
-  'web/models': { may: ['wasm/ts'], packages: [], never: ['three', GLTF] },
+  'web/models': { may: ['wasm/ts'], packages: ['delaunator', 'd3-contour'], never: ['three', GLTF] },
   'web/three': { may: ['wasm/ts', 'web/assets'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
   'web/ui': { may: [], packages: [] },

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { type Handlebody, load, type WeightHandle } from '../../wasm/ts/index.ts';
+import { type BiharmonicWeights, type Handlebody, load, type WeightHandle } from '../../wasm/ts/index.ts';
 import { errorOf, largest } from './support/scattered.ts';
 
 let hb: Handlebody;
@@ -124,6 +124,87 @@ describe('biharmonic weights', () => {
       }),
       { seed: 2102, numRuns: 20 },
     );
+  });
+
+  describe('bounded', () => {
+    const mesh = strip(5, 8);
+    const handles = [{ at: [0.5, 0.5] }, { at: [2.5, 0.125] }, { at: [4.5, 0.5] }] as const;
+    const energyOf = ({ energy: { starts, columns, values } }: BiharmonicWeights, weights: ArrayLike<number>) => {
+      const count = handles.length;
+      let sum = 0;
+      for (let i = 0; i < starts.length - 1; i++)
+        for (let e = starts[i] as number; e < (starts[i + 1] as number); e++)
+          for (let j = 0; j < count; j++)
+            sum +=
+              ((values[e] as number) *
+                (weights[i * count + j] as number) *
+                (weights[(columns[e] as number) * count + j] as number)) /
+              2;
+      return sum;
+    };
+
+    it('stay within 0 and 1, sum to 1, and cost more than those that do not, but no more than their own bound says', () => {
+      using free = hb.biharmonicWeights(mesh, handles);
+      using bounded = hb.biharmonicWeights(mesh, handles, { bounded: true });
+      expect(Math.min(...free.weights)).toBeLessThan(-0.01);
+      expect(free.boundedReport).toBeUndefined();
+      const { weights, boundedReport } = bounded;
+      expect(Math.min(...weights)).toBeGreaterThanOrEqual(0);
+      expect(Math.max(...weights)).toBeLessThanOrEqual(1);
+      for (let v = 0; v < weights.length / 3; v++) {
+        const [a = 0, b = 0, c = 0] = weights.subarray(3 * v, 3 * v + 3);
+        expect(Math.abs(a + b + c - 1)).toBeLessThan(1e-12);
+      }
+      for (const [j, held] of bounded.vertices.entries()) for (const v of held) expect(weights[3 * v + j]).toBe(1);
+      const energy = energyOf(bounded, weights);
+      expect(energy).toBeCloseTo(boundedReport?.energy as number, 6);
+      expect(boundedReport?.gap).toBeLessThanOrEqual(1.001e-6 * energy);
+      expect(energy).toBeGreaterThan(energyOf(free, free.weights));
+      // Clamping the others and dividing by their sums costs more.
+      const clamped = free.weights.map((w) => Math.min(Math.max(w, 0), 1));
+      const normalized = clamped.map((w, i) => w / clamped.subarray(i - (i % 3), i - (i % 3) + 3).reduce((sum, x) => sum + x, 0));
+      expect(energy).toBeLessThan(energyOf(free, normalized));
+    });
+
+    it('come in small steps too, and can be cancelled', async () => {
+      using atOnce = hb.biharmonicWeights(mesh, handles, { bounded: true });
+      using weights = hb.biharmonicWeights(mesh, handles);
+      const before = weights.weights;
+      const stop = new AbortController();
+      const parts: number[] = [];
+      const running = weights.bound({ signal: stop.signal, onProgress: () => stop.abort() });
+      await expect(running).rejects.toMatchObject({ code: 'aborted' });
+      expect(weights.weights).toBe(before);
+      expect(weights.boundedReport).toBeUndefined();
+      const report = await weights.bound({ onProgress: (part) => parts.push(part) });
+      expect(report).toEqual(atOnce.boundedReport);
+      expect(weights.weights).toEqual(atOnce.weights);
+      expect(parts.at(-1)).toBe(1);
+      expect(parts).toEqual([...parts].sort((a, b) => a - b));
+    });
+
+    it('are given up when other handles are set meanwhile', async () => {
+      using weights = hb.biharmonicWeights(mesh, handles);
+      const running = weights.bound({ onProgress: () => weights.setHandles([{ vertex: 0 }, { vertex: 9 }]) });
+      await expect(running).rejects.toMatchObject({ code: 'aborted' });
+      expect(weights.handleCount).toBe(2);
+      expect(weights.weights).toHaveLength(2 * weights.vertexCount);
+      expect(weights.boundedReport).toBeUndefined();
+    });
+
+    it('are computed anew when handles are set', () => {
+      using weights = hb.biharmonicWeights(mesh, [{ at: [1, 0.5] }, { at: [4, 0.5] }], { bounded: true });
+      weights.setHandles(handles);
+      using anew = hb.biharmonicWeights(mesh, handles, { bounded: true });
+      expect(largest(weights.weights.map((w, i) => w - (anew.weights[i] as number)))).toBeLessThan(1e-3);
+      expect(Math.min(...weights.weights)).toBeGreaterThanOrEqual(0);
+    });
+
+    it('refuse a tolerance that is none', async () => {
+      using weights = hb.biharmonicWeights(mesh, handles);
+      await expect(weights.bound({ tolerance: 0 })).rejects.toMatchObject({ code: 'invalid-option' });
+      await expect(weights.bound({ tolerance: Number.NaN })).rejects.toMatchObject({ code: 'invalid-option' });
+    });
   });
 
   it('take two bones that meet', () => {

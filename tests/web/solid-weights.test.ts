@@ -67,6 +67,9 @@ describe('the bar', () => {
     await page.getByRole('radio', { name: 'Harmonic', exact: true }).check();
     await soon(fact(page, 'Smooth')).toMatch(/^no/);
     await soon(fact(page, 'Weights within')).toBe('0.000 … 1.000');
+    await page.getByRole('radio', { name: 'Bounded' }).check();
+    await soon(fact(page, 'Smooth')).toBe('yes');
+    await soon(fact(page, 'Weights within')).toBe('0.000 … 1.000');
     await page.getByRole('radio', { name: 'Triharmonic' }).check();
     await soon(fact(page, 'Weights within')).toMatch(/^−0\.00[1-9]/);
   });

@@ -332,6 +332,20 @@ HB_API uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const 
 HB_API const double* hb_skinning_weights_mass(hb_skinning_weights* weights);
 HB_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* energy);
 
+/* What bounding the weights came to. */
+typedef struct hb_bounded_report {
+  double energy;         /* ½ Σ wᵀQw */
+  double gap;            /* the least energy is not below energy − gap */
+  uint32_t sweeps;       /* of the alternating direction method */
+  uint32_t newton_steps;
+} hb_bounded_report;
+
+/* Begins to bring the weights into [0, 1]: least ½ Σⱼ wⱼᵀQwⱼ of all handles together with w ≥ 0 and rows that sum to 1, to `tolerance` of the energy.
+ * Then step until `progress` is 1; hb_skinning_weights_values() are the bounded ones from then on, until other handles are set. Fails as
+ * hb_skinning_weights_set_handles does. */
+HB_API int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance);
+HB_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report);
+
 HB_API void hb_skinning_weights_free(hb_skinning_weights* weights);
 
 /* ---- skinning: a shape under a few moving handles ----------------------------------------------------------------------- */

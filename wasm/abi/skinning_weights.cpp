@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "abi/support.hpp"
+#include "core/skinning/bounded_weights.hpp"
 #include "core/skinning/polyharmonic_weights.hpp"
 
 using namespace handlebody;
 
 struct hb_skinning_weights {
   std::unique_ptr<PolyharmonicWeights> weights;
+  std::unique_ptr<BoundedWeights> bounding;
+  Matrix bounded;  // empty where the weights are not bounded
 };
 
 static_assert(sizeof(Island) == sizeof(hb_island));
@@ -45,11 +48,14 @@ int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const uint
                                         uint32_t count, uint32_t handle_count) {
   HeldVertices held{{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
   const auto done = weights->weights->set_handles(std::move(held));
-  return done ? HB_OK : fail(done.error());
+  if (!done) return fail(done.error());
+  weights->bounding.reset();
+  weights->bounded.resize(0, 0);
+  return HB_OK;
 }
 
 const double* hb_skinning_weights_values(hb_skinning_weights* weights) {
-  return weights->weights->weights().data();
+  return weights->bounded.size() > 0 ? weights->bounded.data() : weights->weights->weights().data();
 }
 
 uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights) {
@@ -69,6 +75,35 @@ uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matr
   const SparseMatrix& energy = weights->weights->energy();
   *out = {energy.starts.data(), energy.columns.data(), energy.values.data()};
   return static_cast<uint32_t>(energy.columns.size());
+}
+
+int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance) {
+  if (!(tolerance > 0 && tolerance < 1))
+    return fail({HB_ERROR_INVALID_OPTION,
+                 {"The tolerance ", tolerance, " is not between 0 and 1."},
+                 {"Give a part of the energy, such as 1e-6."},
+                 HB_CULPRIT_OPTION});
+  const PolyharmonicWeights& from = *weights->weights;
+  BoundedWeightsOptions options;
+  options.tolerance = tolerance;
+  auto made = BoundedWeights::create(from.energy(), from.mass(), from.held(), from.weights(), options);
+  if (!made) return fail(made.error());
+  weights->bounding = std::move(*made);
+  return HB_OK;
+}
+
+int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report) {
+  if (!weights->bounding) {
+    *progress = 1;
+    return HB_OK;
+  }
+  *progress = weights->bounding->step();
+  const BoundedWeightsReport& own = weights->bounding->report();
+  *report = {own.energy, own.gap, static_cast<uint32_t>(own.sweeps), static_cast<uint32_t>(own.newton_steps)};
+  if (!weights->bounding->done()) return HB_OK;
+  weights->bounded = weights->bounding->weights();
+  weights->bounding.reset();
+  return HB_OK;
 }
 
 void hb_skinning_weights_free(hb_skinning_weights* weights) {

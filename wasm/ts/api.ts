@@ -4,6 +4,9 @@ export {
   BIHARMONIC_WEIGHTS_DEFAULTS,
   BiharmonicWeights,
   type BiharmonicWeightsOptions,
+  BOUND_DEFAULTS,
+  type BoundedReport,
+  type BoundOptions,
   type Island,
   type SparseRows,
 } from './biharmonic-weights.ts';

@@ -4,6 +4,7 @@
 // After SparseCore, on which it stands.
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <utility>
 
 namespace handlebody {
 
@@ -11,7 +12,19 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 constexpr double most_entries = 1.5 * 1024 * 1024 * 1024 / (sizeof(double) + sizeof(std::uint32_t));
-constexpr int together = 8;  // columns solved at once
+constexpr int together = 8;     // columns solved at once
+constexpr int most_merged = 4;  // columns of L taken at once
+
+template <int width>
+void subtract(double* y, const std::uint32_t* below, std::uint32_t count, const double* const* columns, const double* values) {
+  for (std::uint32_t e = 0; e < count; ++e) {
+    double sum = 0;
+    for (int c = 0; c < width; ++c) sum += columns[c][e] * values[c];
+    y[below[e]] -= sum;
+  }
+}
+
+}  // namespace
 
 Numbers minimum_degree_order(const SparseMatrix& a) {
   const Index n = a.rows();
@@ -24,13 +37,15 @@ Numbers minimum_degree_order(const SparseMatrix& a) {
   return {order.indices().data(), order.indices().data() + n};
 }
 
-}  // namespace
-
 Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a) {
+  return analyze(a, minimum_degree_order(a));
+}
+
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Numbers order) {
   std::unique_ptr<SparseCholesky> made(new SparseCholesky);
   SparseCholesky& result = *made;
   const auto n = static_cast<std::size_t>(a.rows());
-  result.order_ = minimum_degree_order(a);
+  result.order_ = std::move(order);
   result.place_.resize(n);
   for (std::size_t k = 0; k < n; ++k) result.place_[result.order_[k]] = static_cast<std::uint32_t>(k);
 
@@ -67,6 +82,8 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
   result.below_.resize(result.starts_.back());
   result.factor_.resize(result.starts_.back());
   result.pivots_.resize(n);
+  result.merges_.resize(n);
+  for (std::size_t k = 1; k < n; ++k) result.merges_[k] = parent[k - 1] == k && counts[k - 1] == counts[k] + 1;
   result.work_.resize(n * together);
   return made;
 }
@@ -75,7 +92,7 @@ bool SparseCholesky::factor(const SparseMatrix& a) {
   const auto n = static_cast<std::uint32_t>(order_.size());
   Numbers filled(starts_.begin(), starts_.end() - 1), seen(n, none), path(n);
   std::fill(work_.begin(), work_.begin() + n, 0.0);
-  double* const y = work_.data();
+  double *const y = work_.data(), *const inverse = y + n;
   for (std::uint32_t k = 0; k < n; ++k) {
     // The places of row k, each before those that it changes: paths of the tree, the last found first.
     std::uint32_t top = n;
@@ -98,20 +115,39 @@ bool SparseCholesky::factor(const SparseMatrix& a) {
       while (length > 0) path[--top] = path[--length];
     }
     double pivot = diagonal;
-    for (; top < n; ++top) {
-      const std::uint32_t i = path[top], end = filled[i];
-      const double value = y[i], entry = value / pivots_[i];
-      y[i] = 0;
-      const std::uint32_t* const below = below_.data();
-      const double* const column = factor_.data();
-      for (std::uint32_t e = starts_[i]; e < end; ++e) y[below[e]] -= column[e] * value;
-      pivot -= entry * value;
-      below_[end] = k;
-      factor_[end] = entry;
-      filled[i] = end + 1;
+    while (top < n) {
+      // Columns that follow each other and have one pattern are taken together: a fourth of the indices to read, and of y to write.
+      const std::uint32_t first = path[top];
+      int width = 1;
+      while (width < most_merged && top + width < n && path[top + width] == first + width && merges_[first + width]) ++width;
+      double values[most_merged];
+      const double* columns[most_merged];
+      for (int c = 0; c < width; ++c) {
+        const std::uint32_t i = first + static_cast<std::uint32_t>(c);
+        const double value = values[c] = y[i], entry = value * inverse[i];
+        y[i] = 0;
+        columns[c] = &factor_[starts_[i]];
+        for (int later = c + 1; later < width; ++later) y[first + later] -= *columns[c]++ * value;
+        pivot -= entry * value;
+        below_[filled[i]] = k;
+        factor_[filled[i]++] = entry;
+      }
+      const std::uint32_t last = first + static_cast<std::uint32_t>(width) - 1;
+      const std::uint32_t* const below = &below_[starts_[last]];
+      const std::uint32_t count = filled[last] - 1 - starts_[last];
+      if (width == 4)
+        subtract<4>(y, below, count, columns, values);
+      else if (width == 3)
+        subtract<3>(y, below, count, columns, values);
+      else if (width == 2)
+        subtract<2>(y, below, count, columns, values);
+      else
+        subtract<1>(y, below, count, columns, values);
+      top += static_cast<std::uint32_t>(width);
     }
     if (!(pivot > 1e-15 * diagonal)) return false;
     pivots_[k] = pivot;
+    inverse[k] = 1 / pivot;
   }
   return true;
 }

@@ -12,11 +12,17 @@
 
 namespace handlebody {
 
+/** The order in which a symmetric matrix is eliminated with little fill; rows of a submatrix keep theirs well. */
+Numbers minimum_degree_order(const SparseMatrix& a);
+
 class SparseCholesky {
  public:
   /** Orders the rows of a symmetric matrix, all of whose entries are stored, and finds the pattern of its factor. Fails with
    * OUT_OF_MEMORY where the factor would take more than 1.5 GiB, and says how much. */
   static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a);
+
+  /** The same in a given order: row order[0] is eliminated first. */
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Numbers order);
 
   /** Factors a matrix with the pattern that was analyzed. False, and no factor, where it is not positive definite to working
    * precision. */
@@ -42,6 +48,7 @@ class SparseCholesky {
   Numbers parent_;          // elimination tree, of places
   Numbers starts_, below_;  // L by columns: the places below the diagonal
   std::vector<double> factor_, pivots_;
+  std::vector<unsigned char> merges_;  // column k has the pattern of the one before, but for k
   std::vector<double> work_;
   double factor_cost_ = 0;
 };

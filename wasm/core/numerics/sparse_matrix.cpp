@@ -131,19 +131,27 @@ SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const Spa
 }
 
 SparseMatrix submatrix(const SparseMatrix& a, const Numbers& number_of, Index count) {
+  const auto size = static_cast<std::uint32_t>(count);
+  Numbers row_of(size);
+  bool in_order = true;
+  for (std::uint32_t row = 0, last = 0; row < number_of.size(); ++row) {
+    if (number_of[row] >= size) continue;
+    row_of[number_of[row]] = row;
+    in_order = in_order && number_of[row] >= last;
+    last = number_of[row];
+  }
   SparseMatrix result;
-  result.starts.reserve(static_cast<std::size_t>(count) + 1);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(a.rows()); ++row) {
-    if (number_of[row] >= static_cast<std::uint32_t>(count)) continue;
+  result.starts.reserve(row_of.size() + 1);
+  for (const std::uint32_t row : row_of) {
     for (std::uint32_t k = a.starts[row]; k < a.starts[row + 1]; ++k) {
       const std::uint32_t column = number_of[a.columns[k]];
-      if (column >= static_cast<std::uint32_t>(count)) continue;
+      if (column >= size) continue;
       result.columns.push_back(column);
       result.values.push_back(a.values[k]);
     }
     result.starts.push_back(static_cast<std::uint32_t>(result.columns.size()));
   }
-  return result;
+  return in_order ? result : transposed(result);
 }
 
 }  // namespace handlebody

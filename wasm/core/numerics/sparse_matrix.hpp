@@ -43,7 +43,7 @@ class SparseEntries {
 /** A diag(d) B for symmetric A and B whose product is symmetric too, as powers of one operator are. */
 SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const SparseMatrix& b);
 
-/** The rows and columns i of A that have a number below `count`, at that number. */
+/** The rows and columns i of a symmetric A that have a number below `count`, at that number: a permutation where all have one. */
 SparseMatrix submatrix(const SparseMatrix& a, const Numbers& number_of, Index count);
 
 }  // namespace handlebody

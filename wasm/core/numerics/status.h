@@ -60,7 +60,16 @@ typedef enum hb_status {
   HB_ERROR_FILE_TRUNCATED = 101,
   HB_ERROR_FILE_INVALID = 102,
   HB_ERROR_FILE_UNSUPPORTED = 103, /* valid, but needs a feature or extension we do not read */
-  HB_ERROR_FILE_UNREADABLE = 104   /* network or file system */
+  HB_ERROR_FILE_UNREADABLE = 104,  /* network or file system */
+
+  /* outlines and pictures */
+  HB_ERROR_OUTLINE_TOO_FEW = 120, /* fewer than three points in a ring */
+  HB_ERROR_OUTLINE_NOT_FINITE = 121,
+  HB_ERROR_OUTLINE_CROSSES = 122,  /* two edges that cross or touch */
+  HB_ERROR_OUTLINE_NO_AREA = 123,  /* nothing lies inside */
+  HB_ERROR_OUTLINE_TOO_FINE = 124, /* too many points, or gaps too narrow for them */
+  HB_ERROR_PICTURE_OPAQUE = 125,   /* no transparency that would give an outline */
+  HB_ERROR_PICTURE_EMPTY = 126     /* nothing but transparency */
 } hb_status;
 
 /* What an error's index points at. */

@@ -113,7 +113,10 @@ export class Lesson {
   async #compute(signal: AbortSignal): Promise<void> {
     const solid = this.#solid as Solid;
     this.#parts.progress.set(undefined, 'Computing weights…');
-    const [hb, weights] = await Promise.all([this.#parts.solver, computeWeights(solid, this.#method, signal)]);
+    const [hb, weights] = await Promise.all([
+      this.#parts.solver,
+      computeWeights(solid, this.#method, signal, (part) => this.#parts.progress.set(part)),
+    ]);
     if (signal.aborted) return;
     this.#skins?.linear.dispose();
     this.#skins?.rigid.dispose();

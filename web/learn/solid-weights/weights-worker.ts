@@ -9,6 +9,7 @@ addEventListener('message', async ({ data }: MessageEvent<Question>) => {
     const hb = await load();
     const solid = hb.tetrahedralize(data, { resolution: data.resolution });
     const weights = hb.biharmonicWeights(solid, data.handles, { order: data.order });
+    if (data.bounded) await weights.bound({ onProgress: (part) => postMessage({ part } satisfies Answer) });
     const { holds, least, largest, sumError, gradientJump, farWeight } = hb.measureWeights(solid, data.handles, weights.weights);
     answer = {
       weights: Float32Array.from(solid.sample(weights.weights)),

@@ -8,6 +8,7 @@ export type Method = 'harmonic' | 'biharmonic' | 'bounded' | 'triharmonic';
 export const METHODS: readonly { readonly id: Method; readonly label: string; readonly about: string }[] = [
   { id: 'harmonic', label: 'Harmonic', about: 'Least ∫|∇w|²: within 0 and 1, with spikes at points.' },
   { id: 'biharmonic', label: 'Biharmonic', about: 'Least ∫(Δw)²: smooth, out of bounds in places.' },
+  { id: 'bounded', label: 'Bounded', about: 'Least ∫(Δw)² among weights from 0 to 1, of all handles together.' },
   { id: 'triharmonic', label: 'Triharmonic', about: 'Least ∫|∇Δw|²: smoother, farther out of bounds.' },
 ];
 
@@ -17,6 +18,7 @@ export interface Question {
   readonly resolution: number;
   readonly handles: readonly WeightHandle[];
   readonly order: 1 | 2 | 3;
+  readonly bounded: boolean;
 }
 
 export interface Weights {
@@ -27,12 +29,18 @@ export interface Weights {
   readonly measures: Pick<WeightMeasures, 'holds' | 'least' | 'largest' | 'sumError' | 'gradientJump' | 'farWeight'>;
 }
 
-export type Answer = Weights | { readonly told: Told };
+/** What the worker says: how far it is, what went wrong, or the weights. */
+export type Answer = Weights | { readonly part: number } | { readonly told: Told };
 
 const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
 
 /** Asks a worker of its own, which the signal ends. */
-export function computeWeights(solid: Solid, method: Method, signal: AbortSignal): Promise<Weights> {
+export function computeWeights(
+  solid: Solid,
+  method: Method,
+  signal: AbortSignal,
+  onProgress: (part: number) => void,
+): Promise<Weights> {
   return new Promise((resolve, reject) => {
     const worker = new Worker(new URL('./weights-worker.ts', import.meta.url), { type: 'module' });
     const end = (settle: () => void) => {
@@ -42,12 +50,12 @@ export function computeWeights(solid: Solid, method: Method, signal: AbortSignal
     };
     const cancel = () => end(() => reject(signal.reason));
     signal.addEventListener('abort', cancel);
-    worker.addEventListener('message', ({ data }: MessageEvent<Answer>) =>
-      end(() => {
-        if ('told' in data) reject(new PageError(data.told.detail ?? 'internal', data.told.message, data.told.remedy));
-        else resolve(data);
-      }),
-    );
+    worker.addEventListener('message', ({ data }: MessageEvent<Answer>) => {
+      if ('part' in data) onProgress(data.part);
+      else if ('told' in data)
+        end(() => reject(new PageError(data.told.detail ?? 'internal', data.told.message, data.told.remedy)));
+      else end(() => resolve(data));
+    });
     worker.addEventListener('error', () =>
       end(() => reject(new PageError('worker-failed', 'The weights could not be computed.', 'Reload the page and try again.'))),
     );
@@ -58,6 +66,7 @@ export function computeWeights(solid: Solid, method: Method, signal: AbortSignal
       resolution,
       handles: handles.map(({ holds }) => holds),
       order: ORDERS[method],
+      bounded: method === 'bounded',
     };
     worker.postMessage(question);
   });
