@@ -36,14 +36,15 @@ export const LAYERS = {
   'wasm/abi': { may: CORE },
   'wasm/ts': { may: [], packages: [], lazy: ['node:'], never: ['three', GLTF], globals: ['document', 'window'] },
   'web/assets': { may: ['wasm/ts'], packages: [GLTF], never: ['three'] },
-  'web/models': { may: ['wasm/ts'], packages: [], never: ['three', GLTF] },
+  'web/models': { may: ['wasm/ts'], packages: ['delaunator', 'd3-contour'], never: ['three', GLTF] },
   'web/three': { may: ['wasm/ts', 'web/assets'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
   'web/ui': { may: [], packages: [] },
+  'web/stage': { may: ['web/ui'], packages: ['three'] },
   'web/element': { may: [...BASE, 'web/ui'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
-  'web/studio': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', GLTF] },
-  'web/learn': { may: [...BASE, 'web/ui', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
+  'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
+  'web/learn': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
 };
 
 /** Headers that would tie the core to one platform. */

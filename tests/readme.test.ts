@@ -23,7 +23,7 @@ beforeAll(() => {
 });
 
 describe("the README's examples", () => {
-  it('are there', () => expect(examples).toHaveLength(3));
+  it('are there', () => expect(examples).toHaveLength(4));
 
   it('are about ten lines', () => {
     for (const { code } of examples)
@@ -90,6 +90,17 @@ describe("the README's examples", () => {
     expect(report.condition).toBeGreaterThan(1);
     expect(gentle[0]).toBeGreaterThan(0);
     expect(gentle[0]).toBeLessThan(2);
+  });
+
+  it('bend the plane: its right end stands upright, its left end stays', async () => {
+    const { mesh, bent, weights } = await import(/* @vite-ignore */ examples[3]?.file ?? '');
+    expect(weights).toHaveLength((mesh.positions.length / 3) * 2);
+    for (let v = 0; v < mesh.positions.length / 3; v++) {
+      const [x, y] = mesh.positions.slice(3 * v, 3 * v + 2);
+      if (Math.abs(y) > 1e-6 || Math.abs(x) < 1.55) continue;
+      const image = x < 0 ? [x, y] : [2 - y, x];
+      expect(Math.hypot(bent[3 * v] - image[0], bent[3 * v + 1] - image[1])).toBeLessThan(1e-5);
+    }
   });
 });
 

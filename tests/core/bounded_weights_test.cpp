@@ -32,7 +32,7 @@ Problem made(const SimplexMesh& mesh, const HeldVertices& held) {
 BoundedWeights created(const Problem& problem, const BoundedWeightsOptions& options = {}) {
   auto weights = BoundedWeights::create(problem.energy, problem.mass, problem.held, problem.unbounded, options);
   REQUIRE(weights);
-  return std::move(*weights);
+  return std::move(**weights);
 }
 
 BoundedWeights finished(const Problem& problem, const BoundedWeightsOptions& options = {}) {

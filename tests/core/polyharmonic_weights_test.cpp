@@ -37,7 +37,7 @@ HeldVertices oracle_handles(const std::string& line) {
 PolyharmonicWeights made(const SimplexMesh& mesh, int order) {
   auto weights = PolyharmonicWeights::create(mesh, order, Mass::voronoi);
   REQUIRE(weights);
-  return std::move(*weights);
+  return std::move(**weights);
 }
 
 /** A square of (cells + 1)² vertices, two triangles a cell, moved inside by up to a fifth of a cell. */

@@ -267,6 +267,108 @@ HB_API void hb_discrete_green_free(hb_discrete_green* green);
  * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */
 HB_API int32_t hb_natural_neighbor_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
 
+/* ---- tetrahedra ------------------------------------------------------------------------------------------------------------ */
+
+/* Tetrahedra that fill a surface. */
+typedef struct hb_tetrahedra hb_tetrahedra;
+
+typedef struct hb_tetrahedra_view {
+  uint32_t vertex_count;
+  uint32_t tetrahedron_count;
+  const double* positions;     /* vertex_count × 3 */
+  const uint32_t* tetrahedra;  /* tetrahedron_count × 4, positively oriented */
+  const uint32_t* corners;     /* for each vertex of the surface, the 4 corners of its tetrahedron */
+  const double* coordinates;   /* and its 4 barycentric coordinates */
+} hb_tetrahedra_view;
+
+/* The voxels that a surface touches or encloses, `resolution` (4 to 256) along its longest side, as six tetrahedra each. Fails with MESH_* or
+ * INVALID_OPTION. */
+HB_API int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, uint32_t resolution, hb_tetrahedra** tetrahedra);
+
+HB_API void hb_tetrahedra_arrays(hb_tetrahedra* tetrahedra, hb_tetrahedra_view* view);
+
+HB_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
+
+/* ---- skinning weights ------------------------------------------------------------------------------------------------------ */
+
+/* Weights of handles on a mesh: 1 at the handle's own vertices, 0 at the others', smoothest in between. */
+typedef struct hb_skinning_weights hb_skinning_weights;
+
+/* A connected part of a mesh that no handle touches: its first vertex, its number of vertices, and the nearest handle, which it follows. */
+typedef struct hb_island {
+  uint32_t first;
+  uint32_t count;
+  uint32_t handle;
+} hb_island;
+
+/* A square matrix by rows: entries starts[i] to starts[i + 1] of row i, in ascending columns. */
+typedef struct hb_sparse_matrix {
+  const uint32_t* starts;
+  const uint32_t* columns;
+  const double* values;
+} hb_sparse_matrix;
+
+/* The operators of a mesh of `vertex_count` × `dimension` positions and `simplex_count` × `corners` indices: triangles (3 corners) in 2 or 3
+ * dimensions, tetrahedra (4) in 3. `order` 1 harmonic (least ∫|∇w|²), 2 biharmonic (∫(Δw)²), 3 triharmonic (∫|∇Δw|²); `mass` 0 Voronoi, mixed
+ * where obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
+HB_API int32_t hb_skinning_weights_create(const double* positions, uint32_t vertex_count, uint32_t dimension, const uint32_t* simplices, uint32_t simplex_count, uint32_t corners, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
+
+/* Handle owners[k] holds vertices[k]; each of `handle_count` holds one or more. Solves, the first time by factoring, later by small updates where
+ * that is less work. Fails with HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT (two on one vertex), OUT_OF_MEMORY or SYSTEM_SINGULAR, and
+ * keeps the former weights. */
+HB_API int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count);
+
+/* vertex_count × handle_count; rows sum to 1. */
+HB_API const double* hb_skinning_weights_values(hb_skinning_weights* weights);
+
+/* 1 where the last set_handles factored anew, 0 where it was an update. */
+HB_API uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights);
+
+/* The parts without a handle of their own, and their number. */
+HB_API uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const hb_island** islands);
+
+/* The diagonal mass matrix (vertex_count), and the matrix Q of the energy wᵀQw with the number of its entries: minus libigl's `cotmatrix` for order
+ * 1, the bi-Laplacian C M⁻¹ C for order 2. */
+HB_API const double* hb_skinning_weights_mass(hb_skinning_weights* weights);
+HB_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* energy);
+
+/* What bounding the weights came to. */
+typedef struct hb_bounded_report {
+  double energy;         /* ½ Σ wᵀQw */
+  double gap;            /* the least energy is not below energy − gap */
+  uint32_t sweeps;       /* of the alternating direction method */
+  uint32_t newton_steps;
+} hb_bounded_report;
+
+/* Begins to bring the weights into [0, 1]: least ½ Σⱼ wⱼᵀQwⱼ of all handles together with w ≥ 0 and rows that sum to 1, to `tolerance` of the energy.
+ * Then step until `progress` is 1; hb_skinning_weights_values() are the bounded ones from then on, until other handles are set. Fails as
+ * hb_skinning_weights_set_handles does. */
+HB_API int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance);
+HB_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report);
+
+HB_API void hb_skinning_weights_free(hb_skinning_weights* weights);
+
+/* ---- skinning: a shape under a few moving handles ----------------------------------------------------------------------- */
+
+/* Rest positions (count × dimension, 2 or 3), and for each of `handle_count` handles an affine transform. */
+typedef struct hb_skin hb_skin;
+
+/* Linear blending of the transforms by `weights` (count × handle_count, any finite numbers), `compiled` into one matrix where it is 1: the
+ * same result. Fails with INVALID_SHAPE, MESH_NOT_FINITE or VALUE_NOT_FINITE (culprit: the vertex), or OUT_OF_MEMORY. */
+HB_API int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, uint32_t compiled, hb_skin** skin);
+
+/* Dual quaternion blending: of the transforms' rigid parts, to a rigid motion at every vertex. Fails likewise, or with WEIGHTS_MISSING where
+ * a vertex has no weight at all. */
+HB_API int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, hb_skin** skin);
+
+/* handle_count × dimension × (dimension + 1) numbers: T with the image T [v; 1] for each handle, the identity at first. Write it in place. */
+HB_API double* hb_skin_transforms(hb_skin* skin);
+
+/* Deformed positions (count × dimension). Allocates nothing. Fails with TARGET_NOT_FINITE (culprit: the handle) and writes nothing. */
+HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
+
+HB_API void hb_skin_free(hb_skin* skin);
+
 #ifdef __cplusplus
 }
 #endif

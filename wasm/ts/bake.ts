@@ -2,19 +2,17 @@ import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
+import { runStepped } from './stepped.ts';
 import type { BakeOptions, BodyData, DistanceMethod, Mesh } from './types.ts';
 
 export const BAKE_DEFAULTS = { centers: 200, distance: 'fast-marching', resolution: 96, spheres: 120 } as const;
 
 const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean: 1 };
 
-/** How long one stretch of steps may keep the thread before events are let in, in milliseconds. */
-const SLICE = 12;
-
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
 export async function bake(heap: Heap, mesh: Mesh, options: BakeOptions): Promise<BodyData> {
-  const { centers, distance, resolution, spheres, signal, onProgress } = { ...BAKE_DEFAULTS, ...options };
-  throwIfAborted(signal);
+  const { centers, distance, resolution, spheres } = { ...BAKE_DEFAULTS, ...options };
+  throwIfAborted(options.signal);
   checkMeshArrays(mesh);
   const method = METHODS[distance];
   for (const [name, value] of Object.entries({ centers, resolution, spheres })) {
@@ -41,22 +39,7 @@ export async function bake(heap: Heap, mesh: Mesh, options: BakeOptions): Promis
     return heap.u32(out, 1)[0] ?? 0;
   });
   try {
-    const progress = heap.alloc(8);
-    try {
-      let part = 0;
-      while (part < 1) {
-        const sliceEnd = performance.now() + SLICE;
-        do {
-          heap.check((e) => e.hb_bake_step(handle, progress));
-          part = heap.f64(progress, 1)[0] ?? 1;
-        } while (part < 1 && performance.now() < sliceEnd);
-        onProgress?.(part);
-        await letEventsIn();
-        throwIfAborted(signal);
-      }
-    } finally {
-      heap.free(progress);
-    }
+    await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), options);
     return readBody(heap, handle, mesh);
   } finally {
     heap.call((e) => e.hb_bake_free(handle));
@@ -75,18 +58,6 @@ export function checkMeshArrays(mesh: Mesh): void {
       remedy: name === 'positions' ? 'Give x, y and z for every vertex.' : 'Give three vertex indices for every triangle.',
     });
   }
-}
-
-/** A macrotask: timers are clamped to 4 ms in pages, a message is not. */
-function letEventsIn(): Promise<void> {
-  return new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
 }
 
 function readBody(heap: Heap, bake: number, mesh: Mesh): BodyData {

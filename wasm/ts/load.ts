@@ -1,10 +1,14 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
+import { BiharmonicWeights, type BiharmonicWeightsOptions } from './biharmonic-weights.ts';
 import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
+import { DualQuaternion } from './dual-quaternion.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
+import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
+import { measureWeights, type WeightMeasures } from './measure-weights.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
@@ -13,8 +17,12 @@ import { Rbf } from './rbf.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import { Shepard, type ShepardOptions } from './shepard.ts';
 import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import type { SimplexMesh } from './simplex-mesh.ts';
+import type { SkinOptions } from './skin.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
 import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
+import type { WeightHandle } from './weight-handles.ts';
 
 const ABI_VERSION = 1;
 
@@ -91,6 +99,35 @@ export class Handlebody {
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
     return new TensionSpline(this.#heap, options);
+  }
+
+  /** Fills a surface with tetrahedra, on which weights are those of a solid. */
+  tetrahedralize(surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
+    return tetrahedralize(this.#heap, surface, options);
+  }
+
+  /** Harmonic, biharmonic or triharmonic skinning weights of handles on a mesh. */
+  biharmonicWeights(
+    mesh: SimplexMesh,
+    handles: readonly WeightHandle[],
+    options: BiharmonicWeightsOptions = {},
+  ): BiharmonicWeights {
+    return new BiharmonicWeights(this.#heap, mesh, handles, options);
+  }
+
+  /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
+  measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
+    return measureWeights(mesh, handles, weights);
+  }
+
+  /** Linear blend skinning in the plane or in space. */
+  linearBlend(options: LinearBlendOptions): LinearBlend {
+    return new LinearBlend(this.#heap, options);
+  }
+
+  /** Skinning by dual quaternions: a rigid motion at every vertex. */
+  dualQuaternion(options: SkinOptions): DualQuaternion {
+    return new DualQuaternion(this.#heap, options);
   }
 }
 

@@ -1,17 +1,17 @@
 import { type Object3D, Vector3 } from 'three';
 import type { Handle } from '../../wasm/ts/index.ts';
+import { ease, reducedMotion } from '../stage/motion.ts';
+import type { Step, View } from '../stage/view.ts';
 import type { DeformedGeometry } from '../three/geometry.ts';
 import { HandleOverlay } from '../three/handles.ts';
 import { h } from '../ui/dom.ts';
 import { BodyPanel, type Steerable } from './body-panel.ts';
 import type { HandleOrder } from './handles-json.ts';
 import type { LiveBody, Point, Round } from './live-body.ts';
-import { ease, reducedMotion } from './motion.ts';
 import { pickVertex } from './pick.ts';
 import type { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
 import { Tether } from './tether.ts';
-import type { Step, View } from './view.ts';
 
 export interface BodySceneOptions {
   readonly view: View;

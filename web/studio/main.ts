@@ -1,13 +1,13 @@
 import { load } from '../../wasm/ts/index.ts';
+import { cameraTools, freeTheWheel } from '../stage/camera-tools.ts';
+import { View } from '../stage/view.ts';
 import { byId } from '../ui/dom.ts';
-import { cameraTools, freeTheWheel } from './camera-tools.ts';
+import { Messages } from '../ui/messages.ts';
+import { Progress } from '../ui/progress.ts';
 import { listenForFiles } from './drop.ts';
-import { Messages } from './messages.ts';
 import { ModelSwitch } from './model-switch.ts';
 import { Note } from './note.ts';
-import { Progress } from './progress.ts';
 import { Studio } from './studio.ts';
-import { View } from './view.ts';
 
 const viewport = byId('viewport');
 const messages = new Messages(byId('messages'), () => viewport);

@@ -1,11 +1,11 @@
 import type { Mesh, Object3D } from 'three';
 import type { Handlebody, PoseSpace } from '../../wasm/ts/index.ts';
+import { reducedMotion } from '../stage/motion.ts';
+import type { View } from '../stage/view.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
-import { reducedMotion } from './motion.ts';
 import { PosePanel } from './pose-panel.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 import type { StudioScene } from './scene.ts';
-import type { View } from './view.ts';
 
 export interface PoseSceneOptions {
   readonly view: View;

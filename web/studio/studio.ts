@@ -1,22 +1,22 @@
 import type { BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
+import type { View } from '../stage/view.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
 import { byId } from '../ui/dom.ts';
+import { isAbort, type Messages } from '../ui/messages.ts';
+import { PageError } from '../ui/page-error.ts';
+import type { Progress } from '../ui/progress.ts';
 import { BodyScene } from './body-scene.ts';
 import { farthestVertices } from './farthest.ts';
 import { fetchModel } from './fetch-model.ts';
 import { readHandles } from './handles-json.ts';
 import { LiveBody } from './live-body.ts';
 import { type LoadedModel, loadModel } from './load-model.ts';
-import { isAbort, type Messages } from './messages.ts';
 import type { ModelSwitch } from './model-switch.ts';
 import { type ModelEntry, modelOf } from './models.ts';
 import type { Note } from './note.ts';
 import { Placing } from './placing.ts';
-import type { Progress } from './progress.ts';
 import { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
-import { StudioError } from './studio-error.ts';
-import type { View } from './view.ts';
 
 const OWN = 'own';
 const OWN_VIEW = { azimuth: 35, elevation: 14 };
@@ -202,7 +202,7 @@ export class Studio {
     try {
       const orders = readHandles(await file.text());
       if (!this.#body) {
-        throw new StudioError(
+        throw new PageError(
           'no-body',
           'Handles from a file need a body, and there is none on the stage.',
           'Choose the dog, or open a GLB first.',

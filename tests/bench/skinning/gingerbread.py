@@ -1,4 +1,4 @@
-"""Writes the mesh of the skinning benchmark: python3 gingerbread.py VERTICES FILE. A made gingerbread man in the plane, a hexagonal lattice inside an
+"""Writes the mesh of the skinning weights' benchmark: python3 gingerbread.py VERTICES FILE. A made gingerbread man in the plane, a hexagonal lattice inside an
 outline of round limbs, and six handles: head, middle, hands and feet.
 
 The file is text: counts of vertices, dimension, simplices, corners, held vertices and handles; positions; simplices; (vertex, handle) of each

@@ -1,4 +1,4 @@
-"""libigl's side of the skinning benchmark, on the mesh in the file that the first argument names (gingerbread.py says how): prints medians of
+"""libigl's side of the skinning weights' benchmark, on the mesh in the file that the first argument names (gingerbread.py says how): prints medians of
 rounds in milliseconds, as many rounds as the second argument says, and energies ½ Σⱼ wⱼᵀ B wⱼ.
 
 `bbw` is as the Python package calls it, with up to 100 active sets; `bbw 8` with as many as libigl's own tutorial. Energies are of rows

@@ -19,8 +19,8 @@ export async function cramped(page: Page): Promise<string[]> {
     const small = [
       ...document.querySelectorAll<HTMLElement>('button, input:not(.unseen), select, summary, a, label:has(input)'),
     ].filter((control) => {
-      // A click on its label counts for a box to tick.
-      const target = control.matches('[type=checkbox]') ? (control.closest('label') ?? control) : control;
+      // A click on its label counts for a box to tick or a choice.
+      const target = control.matches('[type=checkbox], [type=radio]') ? (control.closest('label') ?? control) : control;
       const { width, height } = target.getBoundingClientRect();
       return width > 0 && (width < 24 || height < 24);
     });

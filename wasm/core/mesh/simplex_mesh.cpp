@@ -58,14 +58,21 @@ Result<Done> check_simplex_mesh(const SimplexMesh& mesh) {
       return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE, {one, s, " uses vertex ", highest, ", but there are only ", n, "."},
                    {"Give vertex numbers from 0 on."}, culprit, s);
     }
+  }
+  return Done{};
+}
+
+Result<Done> check_volumes(const SimplexMesh& mesh) {
+  const Index corners = mesh.simplices.cols();
+  const bool solid = corners == 4;
+  for (Index s = 0; s < mesh.simplices.rows(); ++s) {
     double longest = 0;
     for (Index k = 0; k < corners; ++k)
       for (Index l = 0; l < k; ++l) longest = std::max(longest, (corner(mesh, s, k) - corner(mesh, s, l)).norm());
-    const double volume = simplex_volume(mesh, s);
-    if (!(volume > 1e-14 * longest * longest * (solid ? longest : 1.0))) {
-      return Error(HB_ERROR_MESH_DEGENERATE, {one, s, solid ? " has no volume" : " has no area", ", so it has no cotangents."},
-                   {"Remove it, or move its vertices apart."}, culprit, s);
-    }
+    if (simplex_volume(mesh, s) > 1e-14 * longest * longest * (solid ? longest : 1.0)) continue;
+    return Error(HB_ERROR_MESH_DEGENERATE,
+                 {solid ? "Tetrahedron " : "Triangle ", s, solid ? " has no volume" : " has no area", ", so it has no cotangents."},
+                 {"Remove it, or move its vertices apart."}, solid ? HB_CULPRIT_TETRAHEDRON : HB_CULPRIT_TRIANGLE, s);
   }
   return Done{};
 }

@@ -18,10 +18,13 @@ struct SimplexMesh {
 /** Area of a triangle or volume of a tetrahedron (without sign). */
 double simplex_volume(const SimplexMesh& mesh, Index simplex);
 
-/** Ready for operators: sizes, finite positions, indices in range, no simplex without volume (less than 1e-14 of its longest edge's
- * square or cube, which no cotangent stands). MESH_TOO_LARGE, MESH_TOO_FEW_VERTICES, MESH_NOT_FINITE, MESH_NO_TRIANGLES,
- * MESH_INDEX_OUT_OF_RANGE or MESH_DEGENERATE. */
+/** Sizes that fit, finite positions, indices in range. MESH_TOO_LARGE, MESH_TOO_FEW_VERTICES, MESH_NOT_FINITE, MESH_NO_TRIANGLES,
+ *  MESH_ZERO_EXTENT or MESH_INDEX_OUT_OF_RANGE. */
 Result<Done> check_simplex_mesh(const SimplexMesh& mesh);
+
+/** No simplex is without volume (less than 1e-14 of its longest edge's square or cube), which no cotangent stands. MESH_DEGENERATE.
+ * Of a mesh that was checked. */
+Result<Done> check_volumes(const SimplexMesh& mesh);
 
 /** The number of each vertex's connected part, counted from 0 in the order of their first vertices; one in no simplex is a part of
  * its own. */

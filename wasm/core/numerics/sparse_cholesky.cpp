@@ -37,12 +37,13 @@ Numbers minimum_degree_order(const SparseMatrix& a) {
   return {order.indices().data(), order.indices().data() + n};
 }
 
-Result<SparseCholesky> SparseCholesky::analyze(const SparseMatrix& a) {
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a) {
   return analyze(a, minimum_degree_order(a));
 }
 
-Result<SparseCholesky> SparseCholesky::analyze(const SparseMatrix& a, Numbers order) {
-  SparseCholesky result;
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Numbers order) {
+  std::unique_ptr<SparseCholesky> made(new SparseCholesky);
+  SparseCholesky& result = *made;
   const auto n = static_cast<std::size_t>(a.rows());
   result.order_ = std::move(order);
   result.place_.resize(n);
@@ -84,7 +85,7 @@ Result<SparseCholesky> SparseCholesky::analyze(const SparseMatrix& a, Numbers or
   result.merges_.resize(n);
   for (std::size_t k = 1; k < n; ++k) result.merges_[k] = parent[k - 1] == k && counts[k - 1] == counts[k] + 1;
   result.work_.resize(n * together);
-  return result;
+  return made;
 }
 
 bool SparseCholesky::factor(const SparseMatrix& a) {
@@ -152,11 +153,12 @@ bool SparseCholesky::factor(const SparseMatrix& a) {
 }
 
 template <int width>
-void SparseCholesky::solve_columns(double* x, Index stride) {
+void SparseCholesky::solve_columns(double* x, Index stride, int count) {
   const std::size_t n = order_.size();
   double* const y = work_.data();
+  std::fill(work_.begin(), work_.begin() + static_cast<std::ptrdiff_t>(n * width), 0.0);
   for (std::size_t k = 0; k < n; ++k)
-    for (int j = 0; j < width; ++j) y[k * width + static_cast<std::size_t>(j)] = x[order_[k] * stride + j];
+    for (int j = 0; j < count; ++j) y[k * width + static_cast<std::size_t>(j)] = x[order_[k] * stride + j];
   const std::uint32_t* const below = below_.data();
   const double* const factor = factor_.data();
   for (std::size_t k = 0; k < n; ++k) {
@@ -177,21 +179,13 @@ void SparseCholesky::solve_columns(double* x, Index stride) {
     for (int j = 0; j < width; ++j) y[k * width + static_cast<std::size_t>(j)] = own[j];
   }
   for (std::size_t k = 0; k < n; ++k)
-    for (int j = 0; j < width; ++j) x[order_[k] * stride + j] = y[k * width + static_cast<std::size_t>(j)];
+    for (int j = 0; j < count; ++j) x[order_[k] * stride + j] = y[k * width + static_cast<std::size_t>(j)];
 }
 
 void SparseCholesky::solve(double* x, Index width) {
-  Index done = 0;
-  for (; done + together <= width; done += together) solve_columns<together>(x + done, width);
-  if (width - done >= 4) {
-    solve_columns<4>(x + done, width);
-    done += 4;
-  }
-  if (width - done >= 2) {
-    solve_columns<2>(x + done, width);
-    done += 2;
-  }
-  if (width > done) solve_columns<1>(x + done, width);
+  if (width == 1) return solve_columns<1>(x, 1, 1);
+  for (Index done = 0; done < width; done += together)
+    solve_columns<together>(x + done, width, static_cast<int>(std::min<Index>(together, width - done)));
 }
 
 }  // namespace handlebody

@@ -4,6 +4,7 @@
 // will need before any of it is allocated (Liu 1990); factoring goes row by row (Davis 2005).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/numerics/result.hpp"
@@ -18,10 +19,10 @@ class SparseCholesky {
  public:
   /** Orders the rows of a symmetric matrix, all of whose entries are stored, and finds the pattern of its factor. Fails with
    * OUT_OF_MEMORY where the factor would take more than 1.5 GiB, and says how much. */
-  static Result<SparseCholesky> analyze(const SparseMatrix& a);
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a);
 
   /** The same in a given order: row order[0] is eliminated first. */
-  static Result<SparseCholesky> analyze(const SparseMatrix& a, Numbers order);
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Numbers order);
 
   /** Factors a matrix with the pattern that was analyzed. False, and no factor, where it is not positive definite to working
    * precision. */
@@ -39,8 +40,9 @@ class SparseCholesky {
  private:
   SparseCholesky() = default;
 
+  /** Columns 0 to `count` − 1 ≤ width of rows that are `stride` apart. */
   template <int width>
-  void solve_columns(double* x, Index stride);
+  void solve_columns(double* x, Index stride, int count);
 
   Numbers order_, place_;   // order_[k]: the row that is eliminated as number k; place_ is its inverse
   Numbers parent_;          // elimination tree, of places

@@ -38,6 +38,7 @@ typedef enum hb_status {
   HB_ERROR_HANDLE_NOT_FINITE = 63,
   HB_ERROR_TARGET_NOT_FINITE = 64,
   HB_ERROR_HANDLES_MISSING = 65, /* solve() before any handle was set */
+  HB_ERROR_WEIGHTS_MISSING = 66, /* a vertex whose weights are all 0 */
 
   /* pose spaces and scattered data */
   HB_ERROR_EXAMPLE_DUPLICATE = 80, /* two examples at one place with different shapes */
@@ -59,7 +60,16 @@ typedef enum hb_status {
   HB_ERROR_FILE_TRUNCATED = 101,
   HB_ERROR_FILE_INVALID = 102,
   HB_ERROR_FILE_UNSUPPORTED = 103, /* valid, but needs a feature or extension we do not read */
-  HB_ERROR_FILE_UNREADABLE = 104   /* network or file system */
+  HB_ERROR_FILE_UNREADABLE = 104,  /* network or file system */
+
+  /* outlines and pictures */
+  HB_ERROR_OUTLINE_TOO_FEW = 120, /* fewer than three points in a ring */
+  HB_ERROR_OUTLINE_NOT_FINITE = 121,
+  HB_ERROR_OUTLINE_CROSSES = 122,  /* two edges that cross or touch */
+  HB_ERROR_OUTLINE_NO_AREA = 123,  /* nothing lies inside */
+  HB_ERROR_OUTLINE_TOO_FINE = 124, /* too many points, or gaps too narrow for them */
+  HB_ERROR_PICTURE_OPAQUE = 125,   /* no transparency that would give an outline */
+  HB_ERROR_PICTURE_EMPTY = 126     /* nothing but transparency */
 } hb_status;
 
 /* What an error's index points at. */

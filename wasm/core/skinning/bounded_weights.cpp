@@ -51,10 +51,12 @@ double dot(const double* a, const double* b, Index count) {
 
 }  // namespace
 
-Result<BoundedWeights> BoundedWeights::create(const SparseMatrix& energy, const Vector& mass, const HeldVertices& held,
-                                              const Matrix& start, const BoundedWeightsOptions& options) {
+Result<std::unique_ptr<BoundedWeights>> BoundedWeights::create(const SparseMatrix& energy, const Vector& mass,
+                                                               const HeldVertices& held, const Matrix& start,
+                                                               const BoundedWeightsOptions& options) {
   const Index n = energy.rows(), h = held.handle_count;
-  BoundedWeights self;
+  std::unique_ptr<BoundedWeights> made(new BoundedWeights);
+  BoundedWeights& self = *made;
   self.options_ = options;
   self.start_ = start;
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
@@ -106,7 +108,7 @@ Result<BoundedWeights> BoundedWeights::create(const SparseMatrix& energy, const 
   self.report_.energy = self.bound_ = 0;
   self.best_.resize(0, h);
   self.evaluate();
-  if (self.done()) return self;
+  if (self.done()) return made;
 
   // ρD with Dᵢ = (mᵢ Bᵢᵢ)^½, between the softest and the stiffest modes at a vertex, and ρ² a part of the softness of the unbounded
   // weights: good on meshes of 600 to 6,000 vertices, graded, in space and of tetrahedra, with 2 to 20 handles.
@@ -121,7 +123,7 @@ Result<BoundedWeights> BoundedWeights::create(const SparseMatrix& energy, const 
   for (std::uint32_t k = 0; k < count; ++k) natural[k] = k;
   auto analyzed = SparseCholesky::analyze(penalized, std::move(natural));
   if (!analyzed) return analyzed.error();
-  self.penalized_ = std::make_unique<SparseCholesky>(std::move(*analyzed));
+  self.penalized_ = std::move(*analyzed);
   if (!self.penalized_->factor(penalized)) {
     return Error(HB_ERROR_SYSTEM_SINGULAR,
                  {"The bounded weights' equations have no answer in double precision: some simplices are too thin."},
@@ -132,7 +134,7 @@ Result<BoundedWeights> BoundedWeights::create(const SparseMatrix& energy, const 
   self.most_sweeps_ = least_sweeps;
   self.s_ = std::move(unbounded);
   for (Index k = 0; k < m; ++k) project(&self.s_(k, 0), h);
-  return self;
+  return made;
 }
 
 /** x = argmin ½ xᵀ B x + loadᵀ x + ½ ‖x − (2z − s)‖² in the metric ρD, s ← s + α (x − z), with z the projection of s:
@@ -269,7 +271,7 @@ bool BoundedWeights::factor_column(Index handle) {
   for (std::uint32_t k = 0; k < natural.size(); ++k) natural[k] = k;
   auto analyzed = SparseCholesky::analyze(part, std::move(natural));
   if (!analyzed) return false;
-  column = std::make_unique<SparseCholesky>(std::move(*analyzed));
+  column = std::move(*analyzed);
   known = std::move(rows);
   return column->factor(part);
 }

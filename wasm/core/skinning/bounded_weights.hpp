@@ -34,8 +34,8 @@ class BoundedWeights {
   /** `energy`: B, n×n, symmetric, positive semidefinite, rows summing to 0; `mass`: of the n vertices; `start`: n × handles, the
    * unbounded weights of the same handles. Each connected part must have a held vertex. SYSTEM_SINGULAR where B is not positive
    * definite for the others, OUT_OF_MEMORY. */
-  static Result<BoundedWeights> create(const SparseMatrix& energy, const Vector& mass, const HeldVertices& held,
-                                       const Matrix& start, const BoundedWeightsOptions& options = {});
+  static Result<std::unique_ptr<BoundedWeights>> create(const SparseMatrix& energy, const Vector& mass, const HeldVertices& held,
+                                                        const Matrix& start, const BoundedWeightsOptions& options = {});
 
   /** Works for about as long as one of the handles' unbounded weights takes. Returns progress, 1 when it is done. */
   double step();

@@ -23,12 +23,14 @@ void set_unit_rows(const HeldVertices& held, Matrix& weights) {
 
 }  // namespace
 
-Result<PolyharmonicWeights> PolyharmonicWeights::create(SimplexMesh mesh, int order, Mass mass) {
+Result<std::unique_ptr<PolyharmonicWeights>> PolyharmonicWeights::create(SimplexMesh mesh, int order, Mass mass) {
   if (order < 1 || order > 3)
     return Error(HB_ERROR_INVALID_OPTION, {"There are no weights of order ", order, "."},
                  {"Use 1 (harmonic), 2 (biharmonic) or 3 (triharmonic)."}, HB_CULPRIT_OPTION);
   if (auto checked = check_simplex_mesh(mesh); !checked) return checked.error();
-  PolyharmonicWeights result;
+  if (auto checked = check_volumes(mesh); !checked) return checked.error();
+  std::unique_ptr<PolyharmonicWeights> made(new PolyharmonicWeights);
+  PolyharmonicWeights& result = *made;
   result.parts_ = connected_parts(mesh);
   result.mass_ = mass_matrix(mesh, mass);
   const SparseMatrix laplacian = cotangent_laplacian(mesh);
@@ -37,7 +39,7 @@ Result<PolyharmonicWeights> PolyharmonicWeights::create(SimplexMesh mesh, int or
   result.energy_ = laplacian;
   for (int k = 1; k < order; ++k) result.energy_ = symmetric_product(laplacian, inverse_mass, result.energy_);
   result.mesh_ = std::move(mesh);
-  return result;
+  return made;
 }
 
 Result<Done> PolyharmonicWeights::set_handles(HeldVertices held) {
@@ -66,7 +68,7 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
   const SparseMatrix free_energy = submatrix(energy_, number_of, static_cast<Index>(free.size()));
   auto analyzed = SparseCholesky::analyze(free_energy);
   if (!analyzed) return analyzed.error();
-  auto cholesky = std::make_unique<SparseCholesky>(std::move(*analyzed));
+  std::unique_ptr<SparseCholesky> cholesky = std::move(*analyzed);
   if (!cholesky->factor(free_energy)) {
     return Error(HB_ERROR_SYSTEM_SINGULAR,
                  {"The weights' equations have no answer in double precision: some simplices are too thin."},

@@ -21,7 +21,7 @@ namespace handlebody {
 class PolyharmonicWeights {
  public:
   /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3. */
-  static Result<PolyharmonicWeights> create(SimplexMesh mesh, int order, Mass mass);
+  static Result<std::unique_ptr<PolyharmonicWeights>> create(SimplexMesh mesh, int order, Mass mass);
 
   /** Computes the weights. HANDLE_* as complete(), OUT_OF_MEMORY, or SYSTEM_SINGULAR where triangles are too thin for double
    * precision; the former handles and weights then stay. */

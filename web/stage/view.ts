@@ -12,12 +12,12 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { PageError } from '../ui/page-error.ts';
 import { disposeObject } from './dispose-object.ts';
 import { fitCamera } from './fit-camera.ts';
 import { StudioLight } from './light.ts';
 import { ease, onMotionChange, reducedMotion } from './motion.ts';
 import { settleDepth } from './settle-depth.ts';
-import { StudioError } from './studio-error.ts';
 
 /** Work to do before a frame is drawn: gets the seconds since the last one and says whether there is more to do in the next. */
 export type Step = (seconds: number) => boolean;
@@ -50,7 +50,7 @@ export class View {
     const attributes = { alpha: true, antialias: true, depth: true, stencil: false, premultipliedAlpha: true };
     const context = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
     if (!context) {
-      throw new StudioError(
+      throw new PageError(
         'webgl-unavailable',
         'This browser offers no WebGL 2, so there is no 3D picture.',
         'Turn on hardware acceleration in the browser’s settings, or open the page in another current browser.',

@@ -1,5 +1,5 @@
-import { h } from '../ui/dom.ts';
-import { explain } from '../ui/explain.ts';
+import { h } from './dom.ts';
+import { explain } from './explain.ts';
 
 /** The page's one place for what went wrong: a sentence, what to do about it, and the code in small type. */
 export class Messages {

@@ -1,6 +1,6 @@
 /** Troubles of the page itself, told like the library's: a sentence and a remedy. */
-export class StudioError extends Error {
-  override readonly name = 'StudioError';
+export class PageError extends Error {
+  override readonly name = 'PageError';
   readonly code: string;
   readonly remedy: string;
 

@@ -1,4 +1,4 @@
-import { h } from '../ui/dom.ts';
+import { h } from './dom.ts';
 
 /** A bar over the view for work that takes a while, with a way to stop it. */
 export class Progress {

@@ -1,0 +1,92 @@
+import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
+import { PNG } from 'pngjs';
+import { inject, onTestFinished } from 'vitest';
+import { frames } from './studio.ts';
+
+export interface Opened {
+  readonly page: Page;
+  /** What the console says. */
+  readonly said: string[];
+}
+
+/** Opens the lesson at an address in a context of its own. */
+export async function bend(
+  browser: Browser,
+  hash: string,
+  { before, state = 'ready', ...options }: BrowserContextOptions & { before?: () => void; state?: 'ready' | 'failed' } = {},
+): Promise<Opened> {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
+  onTestFinished(() => context.close());
+  const page = await context.newPage();
+  const said: string[] = [];
+  page.on(
+    'console',
+    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
+  );
+  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
+  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  if (before) await page.addInitScript(before);
+  // What the page says of itself is waited for: a loaded machine is slow to load.
+  await page.goto(`${inject('site')}learn/gingerbread/${hash}`, { waitUntil: 'commit', timeout: 60_000 });
+  await page.waitForSelector(`#lesson[data-state=${state}]`, { timeout: 60_000 });
+  if (state === 'ready') await rested(page);
+  return { page, said };
+}
+
+/** Waits until nothing has moved for a while: the address is written. */
+export async function rested(page: Page): Promise<void> {
+  await page.waitForFunction(
+    () => document.getElementById('lesson')?.dataset.rest === 'yes' && document.getElementById('note')?.hidden,
+    undefined,
+    { timeout: 60_000 },
+  );
+  await frames(page, 2);
+}
+
+/** Waits until every small picture is drawn and every requirement measured. */
+export async function finished(page: Page): Promise<void> {
+  await rested(page);
+  await page.waitForFunction(
+    () =>
+      document.querySelector('.strip')?.hasAttribute('data-done') &&
+      document.querySelector('.requirements')?.hasAttribute('data-done'),
+    undefined,
+    { timeout: 60_000 },
+  );
+}
+
+/** Middle of a handle on the screen: of a bone's first end. */
+export async function handleAt(page: Page, i: number, part: 'start' | 'end' = 'start'): Promise<{ x: number; y: number }> {
+  const box = await page.locator(`.handle.${part}[data-handle="${i}"]`).boundingBox();
+  if (!box) throw new Error(`there is no handle ${i}`);
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** x, y and turn of a handle, as it says them. */
+export async function spoken(page: Page, i: number): Promise<number[]> {
+  const label = (await page.locator(`.handle.start[data-handle="${i}"]`).getAttribute('aria-label')) ?? '';
+  return (label.replaceAll('−', '-').match(/-?[\d.]+/g) ?? []).slice(1).map(Number);
+}
+
+/** The shape without what lies over it. */
+export async function picture(page: Page): Promise<PNG> {
+  const style = '.overlay, .trouble, .note, .legend, .own, .veil { visibility: hidden !important; }';
+  return PNG.sync.read(await page.locator('#picture').screenshot({ style, animations: 'disabled' }));
+}
+
+/** How many pixels are the shape's: of a color that the ground has not. */
+export function covered({ data }: PNG): number {
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const [r, g, b] = [data[i] as number, data[i + 1] as number, data[i + 2] as number];
+    if (Math.max(r, g, b) - Math.min(r, g, b) > 40) count++;
+  }
+  return count;
+}
+
+/** A PNG whose pixels are what a function says: red, green, blue, alpha. */
+export function pngOf(width: number, height: number, color: (x: number, y: number) => [number, number, number, number]): Buffer {
+  const png = new PNG({ width, height });
+  for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) png.data.set(color(x, y), 4 * (y * width + x));
+  return PNG.sync.write(png);
+}

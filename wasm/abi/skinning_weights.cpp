@@ -1,0 +1,112 @@
+// The skinning-weights section of handlebody.h.
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "abi/support.hpp"
+#include "core/skinning/bounded_weights.hpp"
+#include "core/skinning/polyharmonic_weights.hpp"
+
+using namespace handlebody;
+
+struct hb_skinning_weights {
+  std::unique_ptr<PolyharmonicWeights> weights;
+  std::unique_ptr<BoundedWeights> bounding;
+  Matrix bounded;  // empty where the weights are not bounded
+};
+
+static_assert(sizeof(Island) == sizeof(hb_island));
+
+extern "C" {
+
+int32_t hb_skinning_weights_create(const double* positions, uint32_t vertex_count, uint32_t dimension, const uint32_t* simplices,
+                                   uint32_t simplex_count, uint32_t corners, uint32_t order, uint32_t mass,
+                                   hb_skinning_weights** out) {
+  const bool shaped = (dimension == 2 && corners == 3) || (dimension == 3 && (corners == 3 || corners == 4));
+  if (!shaped) {
+    return fail({HB_ERROR_INVALID_SHAPE,
+                 {"Simplices of ", corners, " corners in ", dimension, " dimensions are none that weights know."},
+                 {"Give triangles in 2 or 3 dimensions, or tetrahedra in 3."}});
+  }
+  if (order < 1 || order > 3 || mass >= mass_count) {
+    return fail({HB_ERROR_INVALID_OPTION,
+                 {"The order ", order, " or the mass ", mass, " is unknown."},
+                 {"Use those that the header lists."},
+                 HB_CULPRIT_OPTION});
+  }
+  SimplexMesh mesh;
+  mesh.positions = Eigen::Map<const Matrix>(positions, static_cast<Index>(vertex_count), static_cast<Index>(dimension));
+  mesh.simplices = Eigen::Map<const Simplices>(simplices, static_cast<Index>(simplex_count), static_cast<Index>(corners));
+  auto made = PolyharmonicWeights::create(std::move(mesh), static_cast<int>(order), static_cast<Mass>(mass));
+  if (!made) return fail(made.error());
+  *out = new hb_skinning_weights{std::move(*made)};
+  return HB_OK;
+}
+
+int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const uint32_t* vertices, const uint32_t* owners,
+                                        uint32_t count, uint32_t handle_count) {
+  HeldVertices held{{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
+  const auto done = weights->weights->set_handles(std::move(held));
+  if (!done) return fail(done.error());
+  weights->bounding.reset();
+  weights->bounded.resize(0, 0);
+  return HB_OK;
+}
+
+const double* hb_skinning_weights_values(hb_skinning_weights* weights) {
+  return weights->bounded.size() > 0 ? weights->bounded.data() : weights->weights->weights().data();
+}
+
+uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights) {
+  return weights->weights->factored() ? 1 : 0;
+}
+
+uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const hb_island** islands) {
+  *islands = reinterpret_cast<const hb_island*>(weights->weights->islands().data());
+  return static_cast<uint32_t>(weights->weights->islands().size());
+}
+
+const double* hb_skinning_weights_mass(hb_skinning_weights* weights) {
+  return weights->weights->mass().data();
+}
+
+uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* out) {
+  const SparseMatrix& energy = weights->weights->energy();
+  *out = {energy.starts.data(), energy.columns.data(), energy.values.data()};
+  return static_cast<uint32_t>(energy.columns.size());
+}
+
+int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance) {
+  if (!(tolerance > 0 && tolerance < 1))
+    return fail({HB_ERROR_INVALID_OPTION,
+                 {"The tolerance ", tolerance, " is not between 0 and 1."},
+                 {"Give a part of the energy, such as 1e-6."},
+                 HB_CULPRIT_OPTION});
+  const PolyharmonicWeights& from = *weights->weights;
+  BoundedWeightsOptions options;
+  options.tolerance = tolerance;
+  auto made = BoundedWeights::create(from.energy(), from.mass(), from.held(), from.weights(), options);
+  if (!made) return fail(made.error());
+  weights->bounding = std::move(*made);
+  return HB_OK;
+}
+
+int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report) {
+  if (!weights->bounding) {
+    *progress = 1;
+    return HB_OK;
+  }
+  *progress = weights->bounding->step();
+  const BoundedWeightsReport& own = weights->bounding->report();
+  *report = {own.energy, own.gap, static_cast<uint32_t>(own.sweeps), static_cast<uint32_t>(own.newton_steps)};
+  if (!weights->bounding->done()) return HB_OK;
+  weights->bounded = weights->bounding->weights();
+  weights->bounding.reset();
+  return HB_OK;
+}
+
+void hb_skinning_weights_free(hb_skinning_weights* weights) {
+  delete weights;
+}
+}

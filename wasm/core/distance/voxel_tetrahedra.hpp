@@ -1,0 +1,26 @@
+// Tetrahedra that fill a surface, for weights and energies of solids: the voxels that the surface touches or encloses, six
+// tetrahedra each (Kuhn 1960), which fit together across voxels.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/mesh/simplex_mesh.hpp"
+#include "core/numerics/result.hpp"
+
+namespace handlebody {
+
+struct VoxelTetrahedra {
+  SimplexMesh mesh;  // corners of the voxels, in the surface's units; no position of the surface is outside
+  /** Where each vertex of the surface is: the four corners of its tetrahedron, and its barycentric coordinates, which are not
+   * negative. */
+  std::vector<std::array<std::uint32_t, 4>> corners;
+  std::vector<std::array<double, 4>> coordinates;
+};
+
+/** `surface` is a triangle mesh in space: closed, or it encloses nothing and gets the voxels that it touches. Cubes, `resolution`
+ * (4 to 256) along the longest side of its box. Limbs that come closer than a voxel grow together: raise the resolution then. Fails
+ * as check_simplex_mesh() and make_grid() do, or with INVALID_OPTION. */
+Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int resolution);
+
+}  // namespace handlebody

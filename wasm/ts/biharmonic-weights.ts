@@ -1,0 +1,266 @@
+import { LAYOUT } from './abi.generated.ts';
+import { HandlebodyError, throwIfAborted } from './errors.ts';
+import type { Heap } from './heap.ts';
+import { type CheckedMesh, checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
+import { runStepped, type SteppedOptions } from './stepped.ts';
+import { resolveHandles, type WeightHandle } from './weight-handles.ts';
+
+export interface BiharmonicWeightsOptions {
+  /**
+   * 1: harmonic, least ∫|∇w|², with spikes at points. 2: biharmonic, least ∫(Δw)², smooth, a little below 0 and above 1 in places.
+   * 3: triharmonic, least ∫|∇Δw|², smoother, farther out of bounds.
+   */
+  readonly order?: 1 | 2 | 3;
+  /**
+   * Brings the weights into [0, 1], all handles together, so that rows still sum to 1 (Jacobson et al. 2011): least energy among such
+   * weights. Some twenty times the work; `bound()` does the same without keeping the thread.
+   */
+  readonly bounded?: boolean;
+  /** How much of the mesh belongs to each vertex: its Voronoi cell (mixed where a triangle is obtuse) or a third of each triangle. */
+  readonly mass?: 'voronoi' | 'barycentric';
+}
+
+export const BIHARMONIC_WEIGHTS_DEFAULTS = { order: 2, bounded: false, mass: 'voronoi' } as const;
+
+/** A connected part of the mesh that no handle touches: it follows the nearest handle, its `weights` are 1 for that one. */
+export interface Island {
+  /** Its first vertex. */
+  readonly first: number;
+  /** Its number of vertices. */
+  readonly count: number;
+  /** The handle that it follows. */
+  readonly handle: number;
+}
+
+/** What bounding the weights came to. */
+export interface BoundedReport {
+  /** ½ Σⱼ wⱼᵀ Q wⱼ. */
+  readonly energy: number;
+  /** The least energy of such weights is not below `energy − gap`. */
+  readonly gap: number;
+  /** Sweeps of the alternating direction method, which finds out roughly which bounds hold. */
+  readonly sweeps: number;
+  /** Steps of Newton's method, which finds the minimum. */
+  readonly newtonSteps: number;
+}
+
+export interface BoundOptions extends SteppedOptions {
+  /** How far above the least energy the weights' may be, as a part of it. */
+  readonly tolerance?: number;
+}
+
+export const BOUND_DEFAULTS = { tolerance: 1e-6 } as const;
+
+/** A square matrix by rows: entries `starts[i]` to `starts[i + 1]` of row i, in ascending columns. */
+export interface SparseRows {
+  readonly starts: Uint32Array;
+  readonly columns: Uint32Array;
+  readonly values: Float64Array;
+}
+
+/**
+ * Skinning weights (lecture, "Weight calculation"): for each handle the smoothest function on the mesh that is 1 at its own vertices and 0 at
+ * those of the others. Its operators are libigl's: Q = C, C M⁻¹ C or C M⁻¹ C M⁻¹ C of the cotangent Laplacian C and the mass matrix M.
+ *
+ * ```ts
+ * const bar = hb.biharmonicWeights(mesh, [{ vertex: 3 }, { bone: [[0, 0], [0, 1]] }]);
+ * bar.weights;                        // n × 2, rows sum to 1
+ * bar.setHandles([{ vertex: 4 }, { bone: [[0, 0], [0, 1]] }]);   // solves again without factoring
+ * ```
+ */
+export class BiharmonicWeights {
+  readonly vertexCount: number;
+  readonly #heap: Heap;
+  readonly #mesh: CheckedMesh;
+  #object: number;
+  #vertices: readonly (readonly number[])[] = [];
+  readonly #bounded: boolean;
+  #weights = new Float64Array();
+  #report: BoundedReport | undefined;
+  /** Of bounding that is under way. */
+  #pending: BoundedReport | undefined;
+
+  /** @internal Use `Handlebody.biharmonicWeights`. */
+  constructor(heap: Heap, mesh: SimplexMesh, handles: readonly WeightHandle[], options: BiharmonicWeightsOptions = {}) {
+    const { order, mass, bounded } = { ...BIHARMONIC_WEIGHTS_DEFAULTS, ...options };
+    if (mass !== 'voronoi' && mass !== 'barycentric') {
+      throw new HandlebodyError('invalid-option', {
+        message: `There is no mass called "${mass}".`,
+        remedy: 'Use one of: voronoi, barycentric.',
+        culprit: { kind: 'option', index: -1 },
+      });
+    }
+    const checked = checkSimplexMesh(mesh);
+    const { positions, dimension, vertexCount, simplices, corners, simplexCount } = checked;
+    this.vertexCount = vertexCount;
+    this.#heap = heap;
+    this.#mesh = checked;
+    this.#bounded = bounded;
+    this.#object = heap.scope((scratch) => {
+      const from = scratch.putF64(positions);
+      const indices = scratch.putU32(simplices);
+      const out = scratch.reserve(4);
+      const kind = mass === 'voronoi' ? 0 : 1;
+      heap.check((e) =>
+        e.hb_skinning_weights_create(from, vertexCount, dimension, indices, simplexCount, corners, order, kind, out),
+      );
+      return heap.u32(out, 1)[0] ?? 0;
+    });
+    try {
+      this.setHandles(handles);
+    } catch (error) {
+      this.dispose();
+      throw error;
+    }
+  }
+
+  /** n × handles, row-major; rows sum to 1. */
+  get weights(): Float64Array {
+    return this.#weights;
+  }
+
+  /** The vertices that each handle holds. */
+  get vertices(): readonly (readonly number[])[] {
+    return this.#vertices;
+  }
+
+  get handleCount(): number {
+    return this.#vertices.length;
+  }
+
+  /** Whether the last `setHandles` had to factor anew; else it was an update, which costs about one solve a vertex. */
+  get factored(): boolean {
+    return this.#heap.call((e) => e.hb_skinning_weights_factored(this.#handle)) !== 0;
+  }
+
+  /** Parts that no handle touches, and what they follow. */
+  get islands(): readonly Island[] {
+    const object = this.#handle;
+    return this.#heap.scope((scratch) => {
+      const out = scratch.reserve(4);
+      const size = this.#heap.call((e) => e.hb_skinning_weights_islands(object, out)) >>> 0;
+      const numbers = this.#heap.u32(this.#heap.u32(out, 1)[0] ?? 0, 3 * size);
+      return Array.from({ length: size }, (_, k) => {
+        const [first = 0, count = 0, handle = 0] = numbers.subarray(3 * k, 3 * k + 3);
+        return { first, count, handle };
+      });
+    });
+  }
+
+  /** The diagonal mass matrix, M: area or volume of the vertices. */
+  get mass(): Float64Array {
+    const at = this.#heap.call((e) => e.hb_skinning_weights_mass(this.#handle));
+    return this.#heap.f64(at, this.vertexCount).slice();
+  }
+
+  /** Q of the energy wᵀQw: for order 1 the cotangent Laplacian (positive: minus libigl's `cotmatrix`), for order 2 the bi-Laplacian. */
+  get energy(): SparseRows {
+    const object = this.#handle;
+    const heap = this.#heap;
+    return heap.scope((scratch) => {
+      const out = scratch.reserve(LAYOUT.hb_sparse_matrix.sizeof);
+      const entries = heap.call((e) => e.hb_skinning_weights_energy(object, out)) >>> 0;
+      const [starts = 0, columns = 0, values = 0] = heap.u32(out, 3);
+      return {
+        starts: heap.u32(starts, this.vertexCount + 1).slice(),
+        columns: heap.u32(columns, entries).slice(),
+        values: heap.f64(values, entries).slice(),
+      };
+    });
+  }
+
+  /** Other handles on the same mesh. The former weights stay when it throws. */
+  setHandles(handles: readonly WeightHandle[]): void {
+    const object = this.#handle;
+    const resolved = resolveHandles(this.#mesh, handles);
+    const owners = resolved.flatMap((vertices, owner) => vertices.map(() => owner));
+    this.#heap.scope((scratch) => {
+      const at = scratch.putU32(resolved.flat());
+      const of = scratch.putU32(owners);
+      this.#heap.check((e) => e.hb_skinning_weights_set_handles(object, at, of, owners.length, handles.length));
+    });
+    this.#vertices = resolved;
+    this.#pending = undefined;
+    this.#read();
+    if (!this.#bounded) return;
+    this.#beginBounding(BOUND_DEFAULTS.tolerance);
+    this.#heap.scope((scratch) => {
+      const progress = scratch.reserve(8);
+      do this.#step(progress);
+      while ((this.#heap.f64(progress, 1)[0] ?? 1) < 1);
+    });
+    this.#read();
+  }
+
+  /**
+   * Brings the weights into [0, 1], in small steps so that the thread stays responsive; until it is done, and when it is cancelled, `weights`
+   * are what they were. `setHandles` in between puts an end to it.
+   */
+  async bound(options: BoundOptions = {}): Promise<BoundedReport> {
+    throwIfAborted(options.signal);
+    this.#beginBounding(options.tolerance ?? BOUND_DEFAULTS.tolerance);
+    await runStepped(this.#heap, (progress) => this.#step(progress), options);
+    if (!this.#pending) {
+      throw new HandlebodyError('aborted', {
+        message: 'Other handles were set while the weights of the former ones were bounded.',
+        remedy: 'Bound the weights again.',
+      });
+    }
+    return this.#read() as BoundedReport;
+  }
+
+  /** What bounding came to; nothing where the weights are not bounded. */
+  get boundedReport(): BoundedReport | undefined {
+    return this.#report;
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else but `weights` afterwards throws 'disposed'. */
+  dispose(): void {
+    const object = this.#object;
+    if (object === 0) return;
+    this.#object = 0;
+    this.#heap.call((e) => e.hb_skinning_weights_free(object));
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  #beginBounding(tolerance: number): void {
+    this.#pending = undefined;
+    this.#heap.check((e) => e.hb_skinning_weights_bound_begin(this.#handle, tolerance));
+  }
+
+  #step(progress: number): void {
+    const heap = this.#heap;
+    heap.scope((scratch) => {
+      const layout = LAYOUT.hb_bounded_report;
+      const report = scratch.reserve(layout.sizeof);
+      heap.check((e) => e.hb_skinning_weights_bound_step(this.#handle, progress, report));
+      const double = (offset: number) => heap.f64(report + offset, 1)[0] ?? 0;
+      const word = (offset: number) => heap.u32(report + offset, 1)[0] ?? 0;
+      if (word(layout.sweeps) === 0) return;
+      this.#pending = {
+        energy: double(layout.energy),
+        gap: double(layout.gap),
+        sweeps: word(layout.sweeps),
+        newtonSteps: word(layout.newton_steps),
+      };
+    });
+  }
+
+  #read(): BoundedReport | undefined {
+    const values = this.#heap.call((e) => e.hb_skinning_weights_values(this.#handle));
+    this.#weights = this.#heap.f64(values, this.vertexCount * this.handleCount).slice();
+    this.#report = this.#pending;
+    return this.#report;
+  }
+
+  get #handle(): number {
+    if (this.#object !== 0) return this.#object;
+    throw new HandlebodyError('disposed', {
+      message: 'These weights were disposed of and cannot be computed any more.',
+      remedy: 'Make new ones with biharmonicWeights(mesh, handles).',
+    });
+  }
+}

@@ -1,0 +1,29 @@
+import type { Heap } from './heap.ts';
+import { BlendedSkin, SKIN_DEFAULTS, type SkinOptions } from './skin.ts';
+
+export interface LinearBlendOptions extends SkinOptions {
+  /** Multiplies positions and weights into one matrix beforehand: the same result, more memory. */
+  readonly compiled?: boolean;
+}
+
+export const LINEAR_BLEND_DEFAULTS = { ...SKIN_DEFAULTS, compiled: false } as const;
+
+/**
+ * Linear blend skinning: uᵢ = Σⱼ wᵢⱼ Tⱼ [vᵢ; 1]. Weights may be any finite numbers; where they sum to 1, a motion that all handles share is
+ * the shape's. Shapes collapse where handles turn against each other.
+ *
+ * ```ts
+ * const skin = hb.linearBlend({ dimension: 2, positions: [0, 0, 1, 0, 2, 0], weights: [1, 0, 0.5, 0.5, 0, 1] });
+ * skin.transforms.set([0, -1, 2, 1, 0, 0], 6); // turns handle 1 by 90° and shifts it by 2
+ * skin.deform();
+ * ```
+ */
+export class LinearBlend extends BlendedSkin {
+  /** @internal Use `Handlebody.linearBlend`. */
+  constructor(heap: Heap, options: LinearBlendOptions) {
+    const compiled = (options.compiled ?? LINEAR_BLEND_DEFAULTS.compiled) ? 1 : 0;
+    super(heap, options, (e, out, { positions, count, dimension, weights, handleCount }) =>
+      e.hb_linear_blend_create(positions, count, dimension, weights, handleCount, compiled, out),
+    );
+  }
+}

@@ -1,0 +1,155 @@
+import type { Exports } from './abi.generated.ts';
+import { HandlebodyError } from './errors.ts';
+import type { Heap, Scratch } from './heap.ts';
+
+/** What moves by blending: rest positions and how much each handle has to say at each of them. */
+export interface SkinOptions {
+  /** n × dimension, row-major. */
+  readonly positions: ArrayLike<number>;
+  /** 2 in the plane, 3 (the default) in space. */
+  readonly dimension?: 2 | 3;
+  /** n × h, row-major: one number a handle for every vertex. */
+  readonly weights: ArrayLike<number>;
+}
+
+export const SKIN_DEFAULTS = { dimension: 3 } as const;
+
+/**
+ * A shape under h handles: write their `transforms`, then `deform`. A frame allocates nothing when it is given `out`.
+ */
+export abstract class Skin {
+  /** Coordinates of a vertex, 2 or 3. */
+  readonly dimension: 2 | 3;
+  readonly vertexCount: number;
+  readonly handleCount: number;
+  /**
+   * Where the handles take the shape: h × dimension × (dimension + 1), row-major, one matrix T a handle with the image T [v; 1]. The
+   * identity at first. Write it in place.
+   */
+  readonly transforms: Float64Array;
+
+  protected readonly heap: Heap;
+  readonly #out: number;
+  #handle: number;
+
+  /** @internal */
+  protected constructor(
+    heap: Heap,
+    shape: { readonly dimension: 2 | 3; readonly vertexCount: number; readonly handleCount: number },
+    create: (exports: Exports, out: number, given: readonly number[]) => number,
+    /** Copies the arguments of `create` in and returns their addresses. */
+    put: (scratch: Scratch) => readonly number[],
+  ) {
+    const { dimension, vertexCount, handleCount } = shape;
+    this.heap = heap;
+    this.dimension = dimension;
+    this.vertexCount = vertexCount;
+    this.handleCount = handleCount;
+    const handle = heap.scope((scratch) => {
+      const given = put(scratch);
+      const out = scratch.reserve(4);
+      heap.check((e) => create(e, out, given));
+      return heap.u32(out, 1)[0] ?? 0;
+    });
+    this.#handle = handle;
+    // Taken once, so that a frame allocates nothing.
+    this.#out = heap.alloc(vertexCount * dimension * 4);
+    const transforms = heap.call((e) => e.hb_skin_transforms(handle));
+    this.transforms = heap.f64(transforms, handleCount * dimension * (dimension + 1)).slice();
+  }
+
+  /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
+  dispose(): void {
+    const handle = this.#handle;
+    if (handle === 0) return;
+    this.#handle = 0;
+    this.heap.call((e) => e.hb_skin_free(handle));
+    this.heap.free(this.#out);
+  }
+
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  /** @internal Moves the vertices by what `transforms` says now: `run` gets the object and where positions go. */
+  protected move(given: Float32Array | undefined, run: (exports: Exports, handle: number, out: number) => number): Float32Array {
+    const { heap, transforms } = this;
+    const handle = this.#handle;
+    if (handle === 0) {
+      throw new HandlebodyError('disposed', {
+        message: 'This skin was disposed of and cannot be used any more.',
+        remedy: 'Make a new one of the same shape.',
+      });
+    }
+    const length = this.vertexCount * this.dimension;
+    const out = given ?? new Float32Array(length);
+    if (out.length !== length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `deform() got room for ${out.length} numbers; the shape has ${length}.`,
+        remedy: `Give ${this.dimension} numbers a vertex, or leave it out.`,
+      });
+    }
+    const at = heap.call((e) => e.hb_skin_transforms(handle));
+    heap.f64(at, transforms.length).set(transforms);
+    heap.check((e) => run(e, handle, this.#out));
+    out.set(heap.f32(this.#out, length));
+    return out;
+  }
+}
+
+/** A skin that weights make: `deform` blends the transforms at every vertex. */
+export abstract class BlendedSkin extends Skin {
+  /** @internal */
+  protected constructor(
+    heap: Heap,
+    options: SkinOptions,
+    create: (exports: Exports, out: number, given: BlendArguments) => number,
+  ) {
+    const { positions, dimension, weights } = { ...SKIN_DEFAULTS, ...options };
+    const vertexCount = countRows(positions, dimension);
+    const handleCount = weights.length / vertexCount;
+    if (!Number.isInteger(handleCount) || handleCount === 0) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `There are ${weights.length} weights for ${vertexCount} vertices.`,
+        remedy: 'Give every vertex the same number of weights, one a handle.',
+      });
+    }
+    super(
+      heap,
+      { dimension, vertexCount, handleCount },
+      (e, out, [at = 0, weightsAt = 0]) =>
+        create(e, out, { positions: at, count: vertexCount, dimension, weights: weightsAt, handleCount }),
+      (scratch) => [scratch.putF64(positions), scratch.putF64(weights)],
+    );
+  }
+
+  /** Writes the deformed positions, n × dimension, and returns them. */
+  deform(out?: Float32Array): Float32Array {
+    return this.move(out, (e, skin, to) => e.hb_skin_deform(skin, to));
+  }
+}
+
+/** What the *_create functions of blended skins begin with. */
+export interface BlendArguments {
+  readonly positions: number;
+  readonly count: number;
+  readonly dimension: number;
+  readonly weights: number;
+  readonly handleCount: number;
+}
+
+/** Vertices that the positions are of. */
+export function countRows(positions: ArrayLike<number>, dimension: number): number {
+  if (dimension !== 2 && dimension !== 3) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `Positions have ${dimension} coordinates.`,
+      remedy: 'Use 2 in the plane, 3 in space.',
+    });
+  }
+  const count = positions.length / dimension;
+  if (Number.isInteger(count) && count > 0) return count;
+  throw new HandlebodyError('invalid-shape', {
+    message: `The ${positions.length} numbers of the positions are not one or more vertices of ${dimension}.`,
+    remedy: `Give ${dimension} coordinates for each vertex, or another dimension.`,
+  });
+}

@@ -1,0 +1,153 @@
+import { HandlebodyError } from './errors.ts';
+import type { CheckedMesh } from './simplex-mesh.ts';
+
+/**
+ * What holds a part of a mesh: a vertex or several, the vertex nearest to a place, or the vertices along a bone, which is a segment between two
+ * places. Places must be inside the mesh (on a surface in space they may be anywhere).
+ */
+export type WeightHandle =
+  | { readonly vertex: number }
+  | { readonly vertices: ArrayLike<number> }
+  | { readonly at: ArrayLike<number> }
+  | { readonly bone: readonly [ArrayLike<number>, ArrayLike<number>] };
+
+/** @internal The vertices of every handle. A bone leaves out those that an earlier handle holds, as where two bones meet. */
+export function resolveHandles(mesh: CheckedMesh, handles: readonly WeightHandle[]): number[][] {
+  const taken = new Set<number>();
+  return handles.map((handle, index) => {
+    let vertices: number[];
+    if ('vertex' in handle) vertices = [handle.vertex];
+    else if ('vertices' in handle) vertices = Array.from(handle.vertices);
+    else if ('at' in handle) vertices = [nearestVertex(mesh, checkPlace(mesh, handle.at, index))];
+    else vertices = boneVertices(mesh, handle.bone, index, taken);
+    for (const vertex of vertices) {
+      if (Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.vertexCount) taken.add(vertex);
+      else {
+        throw new HandlebodyError('handle-out-of-range', {
+          message: `Handle ${index} holds vertex ${vertex}; the mesh has ${mesh.vertexCount}, counted from 0.`,
+          remedy: 'Give the number of a vertex.',
+          culprit: { kind: 'handle', index },
+        });
+      }
+    }
+    return vertices;
+  });
+}
+
+function boneVertices(
+  mesh: CheckedMesh,
+  [from, to]: readonly [ArrayLike<number>, ArrayLike<number>],
+  index: number,
+  taken: ReadonlySet<number>,
+): number[] {
+  checkPlace(mesh, from, index);
+  checkPlace(mesh, to, index);
+  const length = Math.hypot(...Array.from(from, (x, axis) => (to[axis] as number) - x));
+  // Half an edge between samples, so that none of the vertices along it is missed.
+  const steps = Math.min(Math.ceil((2 * length) / meanEdge(mesh)), 1000);
+  const found = new Set<number>();
+  for (let step = 0; step <= steps; step++) {
+    const t = steps === 0 ? 0 : step / steps;
+    found.add(
+      nearestVertex(
+        mesh,
+        Array.from(from, (x, axis) => x + ((to[axis] as number) - x) * t),
+      ),
+    );
+  }
+  const free = [...found].filter((vertex) => !taken.has(vertex));
+  return free.length > 0 ? free : [...found];
+}
+
+function checkPlace(mesh: CheckedMesh, at: ArrayLike<number>, index: number): ArrayLike<number> {
+  const culprit = { kind: 'handle', index } as const;
+  if (at.length !== mesh.dimension) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `Handle ${index} has a place of ${at.length} coordinates; the mesh has ${mesh.dimension}.`,
+      remedy: 'Give one coordinate a dimension.',
+      culprit,
+    });
+  }
+  if (!Array.from(at).every(Number.isFinite)) {
+    throw new HandlebodyError('handle-not-finite', {
+      message: `Handle ${index} has a place that is not a finite number.`,
+      remedy: 'Give numbers.',
+      culprit,
+    });
+  }
+  if (mesh.corners === mesh.dimension + 1 && !isInside(mesh, at)) {
+    throw new HandlebodyError('handle-outside', {
+      message: `Handle ${index} at (${Array.from(at, (x) => Number(x.toPrecision(4))).join(', ')}) is outside the shape.`,
+      remedy: 'Place it inside, or name a vertex.',
+      culprit,
+    });
+  }
+  return at;
+}
+
+/** Whether a place is in one of the simplices, or on its border to rounding. */
+function isInside({ positions, dimension, simplices, corners, simplexCount }: CheckedMesh, at: ArrayLike<number>): boolean {
+  const offsets = new Float64Array(corners * dimension);
+  for (let s = 0; s < simplexCount; s++) {
+    let outside = false;
+    for (let axis = 0; axis < dimension; axis++) {
+      let low = Number.POSITIVE_INFINITY;
+      let high = Number.NEGATIVE_INFINITY;
+      for (let k = 0; k < corners; k++) {
+        const offset = (positions[(simplices[s * corners + k] as number) * dimension + axis] as number) - (at[axis] as number);
+        offsets[k * dimension + axis] = offset;
+        low = Math.min(low, offset);
+        high = Math.max(high, offset);
+      }
+      const slack = 1e-9 * (high - low);
+      outside ||= low > slack || high < -slack;
+    }
+    if (!outside && isAroundOrigin(offsets, dimension)) return true;
+  }
+  return false;
+}
+
+/** Whether the simplex of these corners holds the origin: no barycentric coordinate is negative. */
+function isAroundOrigin(p: Float64Array, dimension: 2 | 3): boolean {
+  const n = (k: number) => p[k] as number;
+  const cross = (a: number, b: number) => n(2 * a) * n(2 * b + 1) - n(2 * a + 1) * n(2 * b);
+  const triple = (a: number, b: number, c: number) =>
+    n(3 * a) * (n(3 * b + 1) * n(3 * c + 2) - n(3 * b + 2) * n(3 * c + 1)) -
+    n(3 * a + 1) * (n(3 * b) * n(3 * c + 2) - n(3 * b + 2) * n(3 * c)) +
+    n(3 * a + 2) * (n(3 * b) * n(3 * c + 1) - n(3 * b + 1) * n(3 * c));
+  const parts =
+    dimension === 2
+      ? [cross(1, 2), cross(2, 0), cross(0, 1)]
+      : [triple(1, 2, 3), -triple(0, 2, 3), triple(0, 1, 3), -triple(0, 1, 2)];
+  const whole = parts.reduce((sum, part) => sum + part, 0);
+  return parts.every((part) => part / whole >= -1e-9);
+}
+
+function nearestVertex({ positions, dimension, vertexCount }: CheckedMesh, at: ArrayLike<number>): number {
+  let nearest = 0;
+  let least = Number.POSITIVE_INFINITY;
+  for (let v = 0; v < vertexCount; v++) {
+    let squared = 0;
+    for (let axis = 0; axis < dimension; axis++)
+      squared += ((positions[v * dimension + axis] as number) - (at[axis] as number)) ** 2;
+    if (squared >= least) continue;
+    least = squared;
+    nearest = v;
+  }
+  return nearest;
+}
+
+function meanEdge({ positions, dimension, simplices, corners, simplexCount }: CheckedMesh): number {
+  let sum = 0;
+  for (let s = 0; s < simplexCount; s++) {
+    for (let k = 0; k < corners; k++) {
+      const a = simplices[s * corners + k] as number;
+      const b = simplices[s * corners + ((k + 1) % corners)] as number;
+      let squared = 0;
+      for (let axis = 0; axis < dimension; axis++)
+        squared += ((positions[a * dimension + axis] as number) - (positions[b * dimension + axis] as number)) ** 2;
+      sum += Math.sqrt(squared);
+    }
+  }
+  return sum / (simplexCount * corners) || Number.POSITIVE_INFINITY;
+}

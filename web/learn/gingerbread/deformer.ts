@@ -1,0 +1,106 @@
+import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { PlaneMesh } from '../../models/mesh-shape.ts';
+import { type Handle, writeTransforms } from './experiment.ts';
+import type { DistanceKind, EnergyKind, Method, MethodId, WeightsKind } from './methods.ts';
+import { weightsOf } from './methods.ts';
+import { type Deformation, energyMinimizer, linearBlend, rigidBlend, solveWeights, type Weights } from './solver.ts';
+
+/** What interior radial basis functions need: made on demand, on another thread. */
+export interface SlabDeformation {
+  setHandles(handles: readonly Handle[]): void;
+  /** Whether another round would improve it. */
+  deform(handles: readonly Handle[], out: Float32Array): boolean;
+  dispose(): void;
+}
+
+/** One mesh under one set of handles, deformed by any method. Everything is made when it is first asked for. */
+export class Deformer {
+  readonly mesh: PlaneMesh;
+  readonly hb: Handlebody;
+  #handles: readonly Handle[] = [];
+  readonly #weights = new Map<WeightsKind, Weights>();
+  /** Weights that have seen the handles as they are. */
+  readonly #fresh = new Set<WeightsKind>();
+  readonly #deformations = new Map<MethodId, Deformation>();
+  readonly #slabs = new Map<DistanceKind, SlabDeformation>();
+  readonly #freshSlabs = new Set<DistanceKind>();
+
+  constructor(hb: Handlebody, mesh: PlaneMesh) {
+    this.hb = hb;
+    this.mesh = mesh;
+  }
+
+  /** Other handles, or the same ones elsewhere at rest. Poses need no call. */
+  setHandles(handles: readonly Handle[]): void {
+    this.#handles = handles;
+    this.#fresh.clear();
+    this.#freshSlabs.clear();
+    for (const deformation of this.#deformations.values()) deformation.dispose();
+    this.#deformations.clear();
+  }
+
+  /** Whether the method can answer within a frame. */
+  isReady({ id, kind, family }: Method): boolean {
+    if (family === 'irbf') return this.#slabs.has(kind as DistanceKind);
+    if (family === 'energy') return this.#deformations.has(id);
+    return this.#fresh.has(kind as WeightsKind);
+  }
+
+  hasSlab(kind: DistanceKind): boolean {
+    return this.#slabs.has(kind);
+  }
+
+  setSlab(kind: DistanceKind, slab: SlabDeformation): void {
+    this.#slabs.get(kind)?.dispose();
+    this.#slabs.set(kind, slab);
+    this.#freshSlabs.delete(kind);
+  }
+
+  weights(kind: WeightsKind): Weights {
+    const known = this.#weights.get(kind);
+    if (known && this.#fresh.has(kind)) return known;
+    // A failed solve leaves nothing half done.
+    if (known) known.setHandles(this.#handles);
+    const weights = known ?? solveWeights(this.hb, this.mesh, this.#handles, kind);
+    this.#weights.set(kind, weights);
+    this.#fresh.add(kind);
+    return weights;
+  }
+
+  /**
+   * Places of the vertices under a method, n×2. Returns whether the next frame would come closer still, as iterations do. What is not
+   * prepared leaves the places as they are. Throws what the solver throws.
+   */
+  deform(method: Method, handles: readonly Handle[], out: Float32Array): boolean {
+    if (handles.length === 0) {
+      out.set(this.mesh.positions);
+      return false;
+    }
+    if (method.family === 'irbf') {
+      const kind = method.kind as DistanceKind;
+      const slab = this.#slabs.get(kind);
+      if (!slab) return false;
+      if (!this.#freshSlabs.has(kind)) slab.setHandles(handles);
+      this.#freshSlabs.add(kind);
+      return slab.deform(handles, out);
+    }
+    const deformation = this.#deformations.get(method.id) ?? this.#make(method);
+    this.#deformations.set(method.id, deformation);
+    writeTransforms(handles, deformation.transforms);
+    return deformation.deform(out);
+  }
+
+  dispose(): void {
+    for (const owned of [...this.#weights.values(), ...this.#deformations.values(), ...this.#slabs.values()]) owned.dispose();
+    this.#weights.clear();
+    this.#deformations.clear();
+    this.#slabs.clear();
+  }
+
+  #make(method: Method): Deformation {
+    const kind = weightsOf(method);
+    if (!kind) return energyMinimizer(this.hb, this.mesh, this.#handles, method.kind as EnergyKind);
+    const { weights } = this.weights(kind);
+    return method.family === 'rigid' ? rigidBlend(this.hb, this.mesh, weights) : linearBlend(this.hb, this.mesh, weights);
+  }
+}

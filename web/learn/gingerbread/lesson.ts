@@ -1,0 +1,468 @@
+import { HandlebodyError } from '../../../wasm/ts/errors.ts';
+import type { Handlebody } from '../../../wasm/ts/index.ts';
+import { meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
+import { inside, type Shape } from '../../models/shape.ts';
+import { readable } from '../../ui/dom.ts';
+import { fromAddress, toAddress } from './address.ts';
+import { Deformer } from './deformer.ts';
+import { bone, copyOf, type Experiment, type Handle, MOST_HANDLES, type Place, placeOf, point, tidy, wrap } from './experiment.ts';
+import { type PaintedShape, paintOwn } from './icing.ts';
+import { type Method, type MethodId, methodOf, weightsOf } from './methods.ts';
+import type { Picture } from './picture.ts';
+import { shapeOf } from './shapes.ts';
+
+/** The parts of the page that show the experiment. */
+export interface Audience {
+  /** Another shape or mesh. */
+  mesh(): void;
+  /** Handles came or went, another method: what is listed may have changed. */
+  structure(): void;
+  /** Drawn anew: once a frame at the most. */
+  frame(): void;
+  /** Something that takes a while begins (a sentence) or has ended. */
+  busy(said: string | undefined): void;
+  trouble(error: unknown): void;
+  /** Nothing has moved for a while. */
+  rest(): void;
+}
+
+/** Milliseconds without a change after which the page writes its address and speaks. */
+const REST = 350;
+/** Milliseconds that a pose takes to be struck. */
+const EASE = 700;
+/** Frames for which iterations go on after the last change. */
+const MOST_ROUNDS = 60;
+/** Milliseconds of a frame that small pictures may take. */
+const TILES = 10;
+
+/** The shape, its handles and their pose: every change goes through here, and is solved and drawn with the next frame. */
+export class Lesson {
+  readonly picture: Picture;
+  experiment: Experiment;
+  mesh: PlaneMesh;
+  deformer: Deformer | undefined;
+  /** The outline that the mesh was made of. */
+  outline: Shape;
+  /** Milliseconds that the last frame's deformation took. */
+  took = 0;
+  readonly #audience: Audience;
+  #hb: Handlebody | undefined;
+  /** The painting of an own shape that came with a picture. */
+  #painting: PaintedShape | undefined;
+  #frame = 0;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #ease: { from: Handle[]; start: number } | undefined;
+  #good: Float32Array;
+  #failed: string | undefined;
+  /** Frames since something changed. */
+  #rounds = 0;
+
+  constructor(picture: Picture, audience: Audience) {
+    this.picture = picture;
+    this.#audience = audience;
+    this.experiment = fromAddress(location.hash);
+    const { outline, mesh } = this.#build(this.experiment);
+    [this.outline, this.mesh] = [outline, mesh];
+    this.#good = Float32Array.from(mesh.positions);
+    this.#show();
+  }
+
+  /** The solver has come: poses can be struck. */
+  connect(hb: Handlebody): void {
+    this.#hb = hb;
+    this.deformer = new Deformer(hb, this.mesh);
+    this.deformer.setHandles(this.experiment.handles);
+    this.#easeFrom(this.experiment.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#audience.structure();
+    this.#change();
+  }
+
+  get method(): Method {
+    return methodOf(this.experiment.method) as Method;
+  }
+
+  get handles(): readonly Handle[] {
+    return this.experiment.handles;
+  }
+
+  get picked(): number {
+    return this.experiment.picked;
+  }
+
+  get address(): string {
+    return toAddress(this.experiment);
+  }
+
+  // Shapes
+
+  /** Shows what an address says; the shape that was stays when it has none. */
+  open(hash: string): void {
+    if (hash.replace(/^#/, '') === this.address) return;
+    this.start(fromAddress(hash));
+  }
+
+  /** Another shape, handles and all. On an outline that is none the page stays as it was. */
+  start(experiment: Experiment, painting?: PaintedShape): boolean {
+    try {
+      const { outline, mesh } = this.#build(experiment);
+      this.#painting = painting;
+      this.experiment = experiment;
+      [this.outline, this.mesh] = [outline, mesh];
+      if (experiment.shape === 'own' && experiment.handles.length === 0) this.experiment.handles = this.#spread(4);
+    } catch (error) {
+      this.#audience.trouble(error);
+      return false;
+    }
+    this.#failed = undefined;
+    this.#good = Float32Array.from(this.mesh.positions);
+    this.#show();
+    this.deformer?.dispose();
+    this.deformer = this.#hb && new Deformer(this.#hb, this.mesh);
+    this.deformer?.setHandles(experiment.handles);
+    this.#easeFrom(experiment.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#audience.trouble(undefined);
+    this.#audience.mesh();
+    this.#audience.structure();
+    this.#change();
+    return true;
+  }
+
+  setVertices(vertices: number): void {
+    this.start({ ...this.experiment, vertices }, this.#painting);
+    this.#ease = undefined;
+  }
+
+  #build(experiment: Experiment): { outline: Shape; mesh: PlaneMesh } {
+    const outline = shapeOf(experiment.shape)?.outline() ?? experiment.outline ?? [];
+    return { outline, mesh: meshShape(outline, { vertices: experiment.vertices }) };
+  }
+
+  #show(): void {
+    const painted = this.#painting ?? (shapeOf(this.experiment.shape)?.paint ?? paintOwn)(this.outline);
+    this.picture.setMesh(this.mesh, painted);
+  }
+
+  // Handles
+
+  pick(i: number): void {
+    if (i === this.experiment.picked) return;
+    this.experiment.picked = i;
+    this.#audience.structure();
+    this.#change();
+  }
+
+  move(i: number, x: number, y: number): void {
+    const handle = this.experiment.handles[i];
+    if (!handle || !Number.isFinite(x) || !Number.isFinite(y)) return;
+    handle.move = [tidy(x - handle.rest[0]), tidy(y - handle.rest[1])];
+    this.#moved();
+  }
+
+  turn(i: number, degrees: number): void {
+    const handle = this.experiment.handles[i];
+    if (!handle || !Number.isFinite(degrees)) return;
+    handle.turn = Math.round(wrap(degrees) * 10) / 10;
+    this.#moved();
+  }
+
+  /** What puts handle `i` back to where it is now. */
+  hold(i: number): () => void {
+    const { move, turn } = this.experiment.handles[i] as Handle;
+    return () => {
+      const handle = this.experiment.handles[i];
+      if (!handle) return;
+      [handle.move, handle.turn] = [move, turn];
+      this.#moved();
+    };
+  }
+
+  /** Takes the handle elsewhere at rest; its pose stays relative to that. */
+  sit(i: number, rest: Place, end: Place | undefined): void {
+    const old = this.experiment.handles[i];
+    if (!old) return;
+    const handle: Handle = { rest, ...(end ? { end } : {}), move: old.move, turn: old.turn };
+    this.#restructure(
+      this.experiment.handles.map((other, k) => (k === i ? handle : other)),
+      i,
+    );
+  }
+
+  /** A handle where the shape is now drawn at a place; none where there is nothing. */
+  addAt(place: Place): boolean {
+    const rest = this.#restAt(place);
+    if (!rest || this.handles.length >= MOST_HANDLES) return false;
+    const handle = point(tidy(rest[0]), tidy(rest[1]));
+    handle.move = [tidy(place[0] - rest[0]), tidy(place[1] - rest[1])];
+    return this.#restructure([...this.handles, handle], this.handles.length);
+  }
+
+  addPoint(): boolean {
+    if (this.handles.length >= MOST_HANDLES) return false;
+    const [x, y] = this.#emptiest();
+    return this.#restructure([...this.handles, point(tidy(x), tidy(y))], this.handles.length);
+  }
+
+  /** A bone from the emptiest place towards the middle, as far as it stays inside. */
+  addBone(): boolean {
+    if (this.handles.length >= MOST_HANDLES) return false;
+    const from = this.#emptiest();
+    let best: Place = from;
+    let longest = 0;
+    for (let k = 0; k < 32; k++) {
+      const [c, s] = [Math.cos((k * Math.PI) / 16), Math.sin((k * Math.PI) / 16)];
+      let length = 0;
+      while (length < 0.36 && inside(this.outline, from[0] + c * (length + 0.06), from[1] + s * (length + 0.06))) length += 0.02;
+      if (length > longest) [longest, best] = [length, [from[0] + c * length, from[1] + s * length]];
+    }
+    if (longest === 0) return false;
+    return this.#restructure(
+      [...this.handles, bone([tidy(best[0]), tidy(best[1])], [tidy(from[0]), tidy(from[1])])],
+      this.handles.length,
+    );
+  }
+
+  remove(i: number): void {
+    if (!this.handles[i]) return;
+    this.#restructure(
+      this.handles.filter((_, k) => k !== i),
+      Math.min(i, this.handles.length - 2),
+    );
+  }
+
+  /** Strikes a pose, or the rest pose with none. */
+  strike(handles: Handle[], method?: MethodId): void {
+    const from = this.handles.map(copyOf);
+    const same =
+      handles.length === from.length &&
+      handles.every((handle, i) => `${handle.rest} ${handle.end}` === `${from[i]?.rest} ${from[i]?.end}`);
+    if (method) this.experiment.method = method;
+    if (!same) this.#restructure(handles, Math.min(this.picked, handles.length - 1));
+    else this.experiment.handles = handles;
+    this.#easeFrom(same ? from : handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#audience.structure();
+    this.#change();
+  }
+
+  rest(): void {
+    this.strike(this.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+  }
+
+  setMethod(method: MethodId): void {
+    this.experiment.method = method;
+    this.#audience.structure();
+    this.#change();
+  }
+
+  setShow(show: Partial<Experiment['show']>): void {
+    Object.assign(this.experiment.show, show);
+    if (show.weight && this.picked < 0) this.experiment.picked = 0;
+    this.#audience.structure();
+    this.#change();
+  }
+
+  describe(i: number): string {
+    const handle = this.handles[i] as Handle;
+    const [x, y] = placeOf(handle);
+    return `${handle.end ? 'Bone' : 'Handle'} ${i}, x ${readable(x)}, y ${readable(y)}, turned ${readable(handle.turn, 0)}°`;
+  }
+
+  /** Handles as they are drawn, on their way to a pose. */
+  get shown(): readonly Handle[] {
+    if (!this.#ease) return this.experiment.handles;
+    const t = Math.min((performance.now() - this.#ease.start) / EASE, 1);
+    const part = 1 - (1 - t) ** 3;
+    return this.experiment.handles.map((handle, i) => {
+      const from = this.#ease?.from[i] ?? handle;
+      return {
+        ...handle,
+        move: [from.move[0] + (handle.move[0] - from.move[0]) * part, from.move[1] + (handle.move[1] - from.move[1]) * part],
+        turn: from.turn + (handle.turn - from.turn) * part,
+      };
+    });
+  }
+
+  // Frames
+
+  redraw(): void {
+    this.#change();
+  }
+
+  /**
+   * Draws methods' answers to the pose into small pictures, as many as some milliseconds allow; the large one is drawn again after them.
+   * `next` gives a method and where to draw it, and hears whether that was possible.
+   */
+  drawTiles(next: () => { method: Method; context: CanvasRenderingContext2D; done(drawn: boolean): void } | undefined): void {
+    const { picture, deformer } = this;
+    if (!deformer) return;
+    const now = picture.positions.slice();
+    const until = performance.now() + TILES;
+    picture.setWeight(undefined, 0, 0);
+    picture.showLines(false);
+    do {
+      const tile = next();
+      if (!tile) break;
+      try {
+        deformer.deform(tile.method, this.experiment.handles, picture.positions);
+        picture.moved();
+        picture.renderTile(tile.context);
+        tile.done(true);
+      } catch {
+        tile.done(false);
+      }
+    } while (performance.now() < until);
+    picture.positions.set(now);
+    picture.moved();
+    this.#drawShown();
+  }
+
+  #drawShown(): void {
+    const { show, picked } = this.experiment;
+    const kind = weightsOf(this.method);
+    let weights: Float64Array | undefined;
+    if (show.weight && kind && this.deformer && this.handles.length > 0 && !this.#failed)
+      weights = this.deformer.weights(kind).weights;
+    this.picture.setWeight(weights, Math.max(picked, 0), this.handles.length);
+    this.picture.showLines(show.mesh);
+    this.picture.render();
+  }
+
+  #moved(): void {
+    this.#ease = undefined;
+    this.#change();
+  }
+
+  #restructure(handles: Handle[], picked: number): boolean {
+    this.#ease = undefined;
+    this.experiment.handles = handles;
+    this.experiment.picked = picked;
+    this.deformer?.setHandles(handles);
+    this.#audience.structure();
+    this.#change();
+    return true;
+  }
+
+  #easeFrom(from: Handle[]): void {
+    const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.#ease = still ? undefined : { from, start: performance.now() };
+  }
+
+  #change(): void {
+    this.#rounds = 0;
+    this.#next();
+  }
+
+  #next(): void {
+    this.#frame ||= requestAnimationFrame(() => this.#run());
+    this.#restSoon();
+  }
+
+  #run(): void {
+    this.#frame = 0;
+    const slow = this.deformer && this.handles.length > 0 && !this.deformer.isReady(this.method) && this.method.family !== 'irbf';
+    if (slow) {
+      // The sentence is seen before the work begins.
+      this.#audience.busy(`Solving for ${this.method.name.toLowerCase()} …`);
+      this.picture.render();
+      this.#frame = requestAnimationFrame(() => {
+        this.#frame = requestAnimationFrame(() => {
+          this.#frame = 0;
+          this.#draw();
+          this.#audience.busy(undefined);
+        });
+      });
+      return;
+    }
+    this.#draw();
+  }
+
+  #draw(): void {
+    const begun = performance.now();
+    if (this.#ease && begun - this.#ease.start >= EASE) this.#ease = undefined;
+    const { positions } = this.picture;
+    let unfinished = false;
+    try {
+      unfinished = this.deformer?.deform(this.method, this.shown, positions) ?? false;
+      if (positions.some((value) => !Number.isFinite(value))) throw notFinite();
+      this.#good.set(positions);
+      if (this.#failed) this.#audience.trouble(undefined);
+      this.#failed = undefined;
+    } catch (error) {
+      // The last good picture stays.
+      positions.set(this.#good);
+      const said = String(error);
+      if (said !== this.#failed) this.#audience.trouble(error);
+      this.#failed = said;
+    }
+    this.took = performance.now() - begun;
+    this.picture.moved();
+    this.#drawShown();
+    this.#audience.frame();
+    // Iterations go on for a while when the handles stand still.
+    if (this.#ease || (unfinished && this.#rounds++ < MOST_ROUNDS)) this.#next();
+  }
+
+  #restSoon(): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      if (this.#frame !== 0) return this.#restSoon();
+      this.#audience.rest();
+    }, REST);
+  }
+
+  /** Where the point of the shape was at rest that is now drawn at a place. */
+  #restAt([x, y]: Place): Place | undefined {
+    const { positions } = this.picture;
+    const { triangles } = this.mesh;
+    for (let t = 0; t < triangles.length; t += 3) {
+      const [a, b, c] = [2 * (triangles[t] as number), 2 * (triangles[t + 1] as number), 2 * (triangles[t + 2] as number)];
+      const [ax, ay] = [positions[a] as number, positions[a + 1] as number];
+      const [ux, uy] = [(positions[b] as number) - ax, (positions[b + 1] as number) - ay];
+      const [vx, vy] = [(positions[c] as number) - ax, (positions[c + 1] as number) - ay];
+      const area = ux * vy - uy * vx;
+      const s = ((x - ax) * vy - (y - ay) * vx) / area;
+      const r = (ux * (y - ay) - uy * (x - ax)) / area;
+      if (!(s >= 0 && r >= 0 && s + r <= 1)) continue;
+      const at = (k: 0 | 1) =>
+        (1 - s - r) * (this.mesh.positions[a + k] as number) +
+        s * (this.mesh.positions[b + k] as number) +
+        r * (this.mesh.positions[c + k] as number);
+      return [at(0), at(1)];
+    }
+    return undefined;
+  }
+
+  /** Points far from each other. */
+  #spread(count: number): Handle[] {
+    const handles: Handle[] = [];
+    for (let i = 0; i < count; i++) {
+      const [x, y] = this.#emptiest(handles);
+      handles.push(point(tidy(x), tidy(y)));
+      // The first is only where to start from.
+      if (i === 0) handles[0] = point(...this.#emptiest(handles));
+    }
+    return handles.map(({ rest }) => point(tidy(rest[0]), tidy(rest[1])));
+  }
+
+  /** The vertex farthest from all handles, at rest. */
+  #emptiest(handles = this.handles): Place {
+    const { positions, border } = this.mesh;
+    const rim = new Set(border);
+    let [best, farthest] = [[positions[0] as number, positions[1] as number] as Place, -1];
+    for (let i = 0; i < positions.length; i += 2) {
+      if (rim.has(i / 2)) continue;
+      const [x, y] = [positions[i] as number, positions[i + 1] as number];
+      let least = Infinity;
+      for (const { rest, end } of handles)
+        for (const [px, py] of end ? [rest, end] : [rest]) least = Math.min(least, Math.hypot(x - px, y - py));
+      if (least > farthest) [best, farthest] = [[x, y], least];
+    }
+    return best;
+  }
+}
+
+function notFinite(): HandlebodyError {
+  return new HandlebodyError('target-not-finite', {
+    message: 'The deformed shape has places that are no numbers.',
+    remedy: 'Take the last handle back with Esc, or strike a pose.',
+  });
+}

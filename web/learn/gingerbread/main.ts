@@ -1,0 +1,32 @@
+import { byId } from '../../ui/dom.ts';
+import { explain } from '../../ui/explain.ts';
+import { Page } from './page.ts';
+import { Picture } from './picture.ts';
+
+const state = byId('lesson').dataset;
+
+try {
+  const page = new Page(pictureOn(byId<HTMLCanvasElement>('canvas')));
+  // The shape is drawn first; what bends it is asked for after that.
+  await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+  state.state = 'drawn';
+  const { load } = await import('../../../wasm/ts/index.ts');
+  page.connect(await load());
+  state.state = 'ready';
+} catch (error) {
+  const { message, remedy } = explain(error);
+  state.state = 'failed';
+  byId('trouble').hidden = false;
+  byId('trouble').textContent = `${message} ${remedy}`;
+}
+
+function pictureOn(canvas: HTMLCanvasElement): Picture {
+  try {
+    return new Picture(canvas);
+  } catch (cause) {
+    throw Object.assign(new Error('The shape cannot be drawn: this browser has no WebGL here.', { cause }), {
+      code: 'webgl-unavailable',
+      remedy: 'Turn on hardware acceleration in the browser’s settings, or try another browser.',
+    });
+  }
+}

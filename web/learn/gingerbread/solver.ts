@@ -1,0 +1,130 @@
+import type { DualQuaternion, Handlebody, LinearBlend, WeightHandle } from '../../../wasm/ts/index.ts';
+import type { PlaneMesh } from '../../models/mesh-shape.ts';
+import type { Handle } from './experiment.ts';
+import type { EnergyKind, WeightsKind } from './methods.ts';
+
+/** The page's one door to the solver: what it asks for, in its own words. */
+
+/** Something that deforms a mesh by the handles' transforms, 2×3 each. */
+export interface Deformation {
+  readonly transforms: Float64Array;
+  /** n×2; whether another round would improve it. */
+  deform(out: Float32Array): boolean;
+  dispose(): void;
+}
+
+export interface Island {
+  readonly count: number;
+  /** Its first vertex. */
+  readonly first: number;
+  /** The handle that it follows. */
+  readonly handle: number;
+}
+
+export interface Weights {
+  /** n×h, row by row. */
+  readonly weights: Float64Array;
+  readonly islands: readonly Island[];
+  /** Solves again, without factoring again where the solver can. */
+  setHandles(handles: readonly Handle[]): void;
+  dispose(): void;
+}
+
+const ORDERS = { harmonic: 1, biharmonic: 2, triharmonic: 3 } as const;
+
+export function solveWeights(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
+  // TEMPORARY: bounded weights are clamped biharmonic ones until they come.
+  const order = kind === 'bounded' ? 2 : ORDERS[kind];
+  const solved = hb.biharmonicWeights({ ...mesh, dimension: 2 }, handles.map(weightHandle), { order });
+  return {
+    get weights() {
+      return kind === 'bounded' ? clamped(solved.weights, solved.handleCount) : solved.weights;
+    },
+    get islands() {
+      return solved.islands;
+    },
+    setHandles: (next) => solved.setHandles(next.map(weightHandle)),
+    dispose: () => solved.dispose(),
+  };
+}
+
+function clamped(weights: Float64Array, h: number): Float64Array {
+  const out = weights.map((w) => Math.min(Math.max(w, 0), 1));
+  for (let i = 0; i < out.length; i += h) {
+    let sum = 0;
+    for (let k = 0; k < h; k++) sum += out[i + k] as number;
+    for (let k = 0; k < h; k++) out[i + k] = (out[i + k] as number) / sum;
+  }
+  return out;
+}
+
+function weightHandle({ rest, end }: Handle): WeightHandle {
+  return end ? { bone: [rest, end] } : { at: rest };
+}
+
+export function linearBlend(hb: Handlebody, { positions }: PlaneMesh, weights: Float64Array): Deformation {
+  return settled(hb.linearBlend({ dimension: 2, positions, weights }));
+}
+
+export function rigidBlend(hb: Handlebody, { positions }: PlaneMesh, weights: Float64Array): Deformation {
+  return settled(hb.dualQuaternion({ dimension: 2, positions, weights }));
+}
+
+/** Blending is done in one go. */
+function settled(skin: LinearBlend | DualQuaternion): Deformation {
+  return {
+    transforms: skin.transforms,
+    deform: (out) => {
+      skin.deform(out);
+      return false;
+    },
+    dispose: () => skin.dispose(),
+  };
+}
+
+export function energyMinimizer(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], _energy: EnergyKind): Deformation {
+  // TEMPORARY until energies come.
+  return linearBlend(hb, mesh, solveWeights(hb, mesh, handles, 'harmonic').weights);
+}
+
+/** A requirement of the lecture's on weights, measured: the number at its worst, and whether it holds. */
+export interface Measure {
+  readonly holds: boolean;
+  readonly text: string;
+}
+
+/** What the lecture asks of weights, in the order of the measures. */
+export const REQUIREMENTS: readonly { readonly name: string; readonly said: string }[] = [
+  { name: 'Smooth', said: 'the largest jump of the gradient between triangles, as a part of the largest gradient; at most 0.5.' },
+  { name: 'Local', said: 'the largest weight where another handle is twice as near; at most 0.3.' },
+  { name: 'Shape-aware', said: 'the largest weight of a handle that is near through the air only; at most 0.25.' },
+  { name: 'Sums to 1', said: 'the largest difference of the sum from 1.' },
+  { name: 'Bounded', said: 'the farthest that a weight leaves 0 to 1.' },
+];
+
+/** Nothing where the shape has no place to measure it. */
+export function measureWeights(
+  hb: Handlebody,
+  mesh: PlaneMesh,
+  handles: readonly Handle[],
+  weights: Float64Array,
+): readonly (Measure | undefined)[] {
+  const { gradientJump, farWeight, leakedWeight, sumError, least, largest, holds } = hb.measureWeights(
+    { ...mesh, dimension: 2 },
+    handles.map(weightHandle),
+    weights,
+  );
+  const beyond = Math.max(-least, largest - 1, 0);
+  return [
+    { holds: holds.smooth, text: gradientJump.toFixed(2) },
+    { holds: holds.local, text: farWeight.toFixed(2) },
+    Number.isNaN(leakedWeight) ? undefined : { holds: holds.shapeAware, text: leakedWeight.toFixed(2) },
+    { holds: holds.sumsToOne, text: small(sumError) },
+    { holds: holds.bounded, text: beyond < 5e-4 ? small(beyond) : beyond.toFixed(2) },
+  ];
+}
+
+/** 0, or a power of ten: digits say nothing where all is rounding. */
+function small(value: number): string {
+  return value === 0 ? '0' : value.toExponential(0).replace('e-', 'e−');
+}
