@@ -24,6 +24,9 @@ export class Deformer {
   readonly #deformations = new Map<MethodId, Deformation>();
   readonly #slabs = new Map<DistanceKind, SlabDeformation>();
   readonly #freshSlabs = new Set<DistanceKind>();
+  #finishing: AbortController | undefined;
+  /** Why weights could not be finished for these handles. */
+  #refusal: { readonly error: unknown } | undefined;
 
   constructor(hb: Handlebody, mesh: PlaneMesh) {
     this.hb = hb;
@@ -33,6 +36,8 @@ export class Deformer {
   /** Other handles, or the same ones elsewhere at rest. Poses need no call. */
   setHandles(handles: readonly Handle[]): void {
     this.#handles = handles;
+    this.#refusal = undefined;
+    this.#finishing?.abort();
     this.#fresh.clear();
     this.#freshSlabs.clear();
     for (const deformation of this.#deformations.values()) deformation.dispose();
@@ -43,7 +48,12 @@ export class Deformer {
   isReady({ id, kind, family }: Method): boolean {
     if (family === 'irbf') return this.#slabs.has(kind as DistanceKind);
     if (family === 'energy') return this.#deformations.has(id);
-    return this.#fresh.has(kind as WeightsKind);
+    return this.#fresh.has(kind as WeightsKind) && this.#weights.get(kind as WeightsKind)?.isFinished === true;
+  }
+
+  /** Whether a method's answer is worth showing beside others: all but what takes long and has not been asked for. */
+  isOffered(method: Method): boolean {
+    return method.family !== 'irbf' && method.kind !== 'bounded' ? true : this.isReady(method);
   }
 
   hasSlab(kind: DistanceKind): boolean {
@@ -56,7 +66,40 @@ export class Deformer {
     this.#freshSlabs.delete(kind);
   }
 
+  /**
+   * Finishes bounded weights in small steps; until then they are biharmonic. Returns whether anything has changed. Throws what the solver
+   * throws, and `weights` throws it from then on, until there are other handles.
+   */
+  async finishBounded(onProgress: (part: number) => void): Promise<boolean> {
+    if (this.#finishing || this.#refusal || this.#handles.length === 0) return false;
+    const finishing = new AbortController();
+    this.#finishing = finishing;
+    try {
+      const bounded = this.weights('bounded');
+      if (bounded.isFinished) return false;
+      await bounded.finish({ signal: finishing.signal, onProgress });
+    } catch (error) {
+      // Other handles came: that is a change, too.
+      if (finishing.signal.aborted) return true;
+      this.#refusal = { error };
+      throw error;
+    } finally {
+      this.#finishing = undefined;
+    }
+    for (const id of ['linear-bounded', 'rigid-bounded'] as const) {
+      this.#deformations.get(id)?.dispose();
+      this.#deformations.delete(id);
+    }
+    return true;
+  }
+
+  /** Whether bounded weights are on their way. */
+  get isFinishing(): boolean {
+    return this.#finishing !== undefined;
+  }
+
   weights(kind: WeightsKind): Weights {
+    if (kind === 'bounded' && this.#refusal) throw this.#refusal.error;
     const known = this.#weights.get(kind);
     if (known && this.#fresh.has(kind)) return known;
     // A failed solve leaves nothing half done.
@@ -91,6 +134,7 @@ export class Deformer {
   }
 
   dispose(): void {
+    this.#finishing?.abort();
     for (const owned of [...this.#weights.values(), ...this.#deformations.values(), ...this.#slabs.values()]) owned.dispose();
     this.#weights.clear();
     this.#deformations.clear();

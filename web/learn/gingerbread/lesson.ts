@@ -19,8 +19,8 @@ export interface Audience {
   structure(): void;
   /** Drawn anew: once a frame at the most. */
   frame(): void;
-  /** Something that takes a while begins (a sentence) or has ended. */
-  busy(said: string | undefined): void;
+  /** Something takes a while (a sentence, and how much of it is done) or has ended. */
+  busy(said: string | undefined, part?: number): void;
   trouble(error: unknown): void;
   /** Nothing has moved for a while. */
   rest(): void;
@@ -30,6 +30,8 @@ export interface Audience {
 const REST = 350;
 /** Milliseconds that a pose takes to be struck. */
 const EASE = 700;
+/** Milliseconds of work that nobody needs to hear of. */
+const PATIENCE = 400;
 /** Frames for which iterations go on after the last change. */
 const MOST_ROUNDS = 60;
 /** Milliseconds of a frame that small pictures may take. */
@@ -358,21 +360,28 @@ export class Lesson {
 
   #run(): void {
     this.#frame = 0;
-    const slow = this.deformer && this.handles.length > 0 && !this.deformer.isReady(this.method) && this.method.family !== 'irbf';
-    if (slow) {
-      // The sentence is seen before the work begins.
-      this.#audience.busy(`Solving for ${this.method.name.toLowerCase()} …`);
-      this.picture.render();
-      this.#frame = requestAnimationFrame(() => {
-        this.#frame = requestAnimationFrame(() => {
-          this.#frame = 0;
-          this.#draw();
-          this.#audience.busy(undefined);
-        });
-      });
-      return;
-    }
     this.#draw();
+    if (this.method.kind === 'bounded') void this.finishBounded();
+  }
+
+  /** Bounds the bounded weights, if that is still to do; the page hears of it when it takes a while. */
+  async finishBounded(): Promise<void> {
+    const { deformer } = this;
+    if (!deformer || deformer.isFinishing) return;
+    const begun = performance.now();
+    try {
+      const changed = await deformer.finishBounded((part) => {
+        if (this.method.kind === 'bounded' && performance.now() - begun > PATIENCE)
+          this.#audience.busy('Bounding the weights …', part);
+      });
+      this.#audience.busy(undefined);
+      if (deformer !== this.deformer) return;
+      if (changed) this.#change();
+    } catch (error) {
+      this.#audience.busy(undefined);
+      if (deformer === this.deformer && this.method.kind === 'bounded') this.#audience.trouble(error);
+      this.#change();
+    }
   }
 
   #draw(): void {

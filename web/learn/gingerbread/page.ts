@@ -60,7 +60,7 @@ export class Page {
       mesh: () => this.#mesh(),
       structure: () => this.#structure(),
       frame: () => this.#frame(),
-      busy: (said) => this.#busy(said),
+      busy: (said, part) => this.#busy(said, part),
       trouble: (error) => this.#tell(error),
       rest: () => this.#rest(),
     });
@@ -286,6 +286,9 @@ export class Page {
   #rest(): void {
     const lesson = this.#lesson;
     if (this.#handles.dragging || !lesson.deformer) return;
+    // Its end is drawn, and comes to rest again.
+    void lesson.finishBounded();
+    if (lesson.deformer.isFinishing) return;
     const { address } = lesson;
     if (location.hash.slice(1) !== address && !(location.hash === '' && address === 'man'))
       history.replaceState(null, '', `#${address}`);
@@ -314,9 +317,12 @@ export class Page {
       .join(' ');
   }
 
-  #busy(said: string | undefined): void {
+  #busy(said: string | undefined, part?: number): void {
+    // What prepares interior distances has the note for itself.
+    if (this.#baking) return;
     this.#note.hidden = said === undefined;
-    this.#note.textContent = said ?? '';
+    if (said === undefined) return;
+    this.#note.replaceChildren(said, ...(part === undefined ? [] : [h('progress', { max: 1, value: part, 'aria-label': said })]));
   }
 
   #tell(error: unknown): void {
@@ -353,8 +359,8 @@ export class Page {
     } catch (error) {
       if (!baking.signal.aborted) this.#tell(error);
     } finally {
-      this.#busy(undefined);
       this.#baking = undefined;
+      this.#busy(undefined);
     }
     this.#lesson.redraw();
   }

@@ -25,37 +25,40 @@ export interface Weights {
   /** n×h, row by row. */
   readonly weights: Float64Array;
   readonly islands: readonly Island[];
+  /** Whether the weights are what was asked for: bounded ones are biharmonic before `finish`. */
+  readonly isFinished: boolean;
   /** Solves again, without factoring again where the solver can. */
   setHandles(handles: readonly Handle[]): void;
+  /** In small steps, so that the page stays awake; given up, with 'aborted', when other handles are set or it is cancelled. */
+  finish(options: { signal: AbortSignal; onProgress(part: number): void }): Promise<void>;
   dispose(): void;
 }
 
-const ORDERS = { harmonic: 1, biharmonic: 2, triharmonic: 3 } as const;
+const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
 
 export function solveWeights(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
-  // TEMPORARY: bounded weights are clamped biharmonic ones until they come.
-  const order = kind === 'bounded' ? 2 : ORDERS[kind];
-  const solved = hb.biharmonicWeights({ ...mesh, dimension: 2 }, handles.map(weightHandle), { order });
+  const solved = hb.biharmonicWeights({ ...mesh, dimension: 2 }, handles.map(weightHandle), { order: ORDERS[kind] });
+  let finished = kind !== 'bounded';
   return {
     get weights() {
-      return kind === 'bounded' ? clamped(solved.weights, solved.handleCount) : solved.weights;
+      return solved.weights;
     },
     get islands() {
       return solved.islands;
     },
-    setHandles: (next) => solved.setHandles(next.map(weightHandle)),
+    get isFinished() {
+      return finished;
+    },
+    setHandles(next) {
+      finished = kind !== 'bounded';
+      solved.setHandles(next.map(weightHandle));
+    },
+    async finish(options) {
+      await solved.bound(options);
+      finished = true;
+    },
     dispose: () => solved.dispose(),
   };
-}
-
-function clamped(weights: Float64Array, h: number): Float64Array {
-  const out = weights.map((w) => Math.min(Math.max(w, 0), 1));
-  for (let i = 0; i < out.length; i += h) {
-    let sum = 0;
-    for (let k = 0; k < h; k++) sum += out[i + k] as number;
-    for (let k = 0; k < h; k++) out[i + k] = (out[i + k] as number) / sum;
-  }
-  return out;
 }
 
 function weightHandle({ rest, end }: Handle): WeightHandle {

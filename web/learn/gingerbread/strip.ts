@@ -76,8 +76,8 @@ export class Strip {
     this.#lesson.drawTiles(() => {
       for (let tile = this.#queue.shift(); tile; tile = this.#queue.shift()) {
         const { method, context, note } = tile;
-        const prepared = method.family !== 'irbf' || this.#lesson.deformer?.isReady(method) === true;
-        note.hidden = prepared;
+        const prepared = this.#lesson.deformer?.isOffered(method) === true;
+        note.hidden = prepared || method.family !== 'irbf';
         if (sized(context.canvas) && prepared) return { method, context, done: (drawn) => show(tile, drawn) };
         show(tile, false);
       }
