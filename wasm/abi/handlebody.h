@@ -367,6 +367,21 @@ HB_API double* hb_skin_transforms(hb_skin* skin);
 /* Deformed positions (count × dimension). Allocates nothing. Fails with TARGET_NOT_FINITE (culprit: the handle) and writes nothing. */
 HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
 
+/* Minimizes an energy of the triangles instead (2 dimensions only) while the handles hold their vertices, handle owners[k] vertices[k], and the
+ * ones around a handle of one vertex. `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails
+ * with MESH_*, HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT, INVALID_OPTION, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_minimizer_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count, uint32_t energy, hb_skin** skin);
+
+typedef struct hb_minimizer_report {
+  double energy;
+  uint32_t iterations; /* local/global rounds that were taken; 1 for a quadratic energy */
+  uint32_t flips;      /* triangles turned over */
+} hb_minimizer_report;
+
+/* hb_skin_deform() of what hb_minimizer_create made, with up to `iterations` rounds (as rigid as possible) from where the last call stopped.
+ * Fails likewise, or with INVALID_OPTION. */
+HB_API int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report);
+
 HB_API void hb_skin_free(hb_skin* skin);
 
 #ifdef __cplusplus

@@ -5,13 +5,16 @@
 #include <utility>
 
 #include "abi/support.hpp"
+#include "core/skinning/as_rigid_as_possible.hpp"
 #include "core/skinning/dual_quaternion.hpp"
 #include "core/skinning/linear_blend.hpp"
+#include "core/skinning/quadratic_deformation.hpp"
 
 using namespace handlebody;
 
 struct hb_skin {
   std::unique_ptr<Skin> method;
+  HeldDeformation* minimizer = nullptr;  // the method, where it is one
 };
 
 namespace {
@@ -48,6 +51,31 @@ double* hb_skin_transforms(hb_skin* skin) {
 int32_t hb_skin_deform(hb_skin* skin, float* positions) {
   const auto done = skin->method->deform(positions);
   return done ? HB_OK : fail(done.error());
+}
+
+int32_t hb_minimizer_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
+                            const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count,
+                            uint32_t energy, hb_skin** skin) {
+  if (energy > 3) return fail({HB_ERROR_INVALID_OPTION, {"There is no energy ", energy, "."}, {"Use 0 to 3."}, HB_CULPRIT_OPTION});
+  SimplexMesh mesh{Eigen::Map<const Matrix>(positions, static_cast<Index>(vertex_count), 2),
+                   Eigen::Map<const Simplices>(triangles, static_cast<Index>(triangle_count), 3)};
+  HeldVertices held{{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
+  auto made = energy == 3 ? as_rigid_as_possible(std::move(mesh), std::move(held))
+                          : quadratic_deformation(std::move(mesh), std::move(held), static_cast<QuadraticEnergy>(energy));
+  if (!made) return fail(made.error());
+  HeldDeformation* const minimizer = made->get();
+  *skin = new hb_skin{std::move(*made), minimizer};
+  return HB_OK;
+}
+
+int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report) {
+  HeldDeformation* const minimizer = skin->minimizer;
+  if (!minimizer) return fail({HB_ERROR_INVALID_OPTION, {"This skin minimizes no energy."}, {"Deform it by hb_skin_deform()."}});
+  minimizer->set_iterations(iterations);
+  if (const auto done = minimizer->deform(positions); !done) return fail(done.error());
+  const auto [energy, taken, flips] = minimizer->report();
+  *report = {energy, taken, flips};
+  return HB_OK;
 }
 
 void hb_skin_free(hb_skin* skin) {

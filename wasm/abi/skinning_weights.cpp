@@ -40,7 +40,7 @@ int32_t hb_skinning_weights_create(const double* positions, uint32_t vertex_coun
   mesh.simplices = Eigen::Map<const Simplices>(simplices, static_cast<Index>(simplex_count), static_cast<Index>(corners));
   auto made = PolyharmonicWeights::create(std::move(mesh), static_cast<int>(order), static_cast<Mass>(mass));
   if (!made) return fail(made.error());
-  *out = new hb_skinning_weights{std::move(*made)};
+  *out = new hb_skinning_weights{std::move(*made), nullptr, {}};
   return HB_OK;
 }
 

@@ -27,6 +27,13 @@ export { LINEAR_BLEND_DEFAULTS, LinearBlend, type LinearBlendOptions } from './l
 export type { Handlebody, LoadOptions } from './load.ts';
 export { WEIGHT_REQUIREMENTS, type WeightMeasures } from './measure-weights.ts';
 export {
+  type DeformationEnergy,
+  EnergyMinimizer,
+  MINIMIZE_ENERGY_DEFAULTS,
+  type MinimizeEnergyOptions,
+  type MinimizeEnergyReport,
+} from './minimize-energy.ts';
+export {
   MOVING_LEAST_SQUARES_DEFAULTS,
   MovingLeastSquares,
   type MovingLeastSquaresOptions,

@@ -9,6 +9,7 @@ import { HostKernels } from './host-kernels.ts';
 import { Irbf } from './irbf.ts';
 import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
 import { measureWeights, type WeightMeasures } from './measure-weights.ts';
+import { EnergyMinimizer, type MinimizeEnergyOptions } from './minimize-energy.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
@@ -128,6 +129,11 @@ export class Handlebody {
   /** Skinning by dual quaternions: a rigid motion at every vertex. */
   dualQuaternion(options: SkinOptions): DualQuaternion {
     return new DualQuaternion(this.#heap, options);
+  }
+
+  /** The deformation of triangles in the plane that minimizes an energy under handles. */
+  minimizeEnergy(mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions): EnergyMinimizer {
+    return new EnergyMinimizer(this.#heap, mesh, handles, options);
   }
 }
 

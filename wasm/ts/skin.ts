@@ -71,6 +71,10 @@ export abstract class Skin {
     this.dispose();
   }
 
+  protected get disposed(): boolean {
+    return this.#handle === 0;
+  }
+
   /** @internal Moves the vertices by what `transforms` says now: `run` gets the object and where positions go. */
   protected move(given: Float32Array | undefined, run: (exports: Exports, handle: number, out: number) => number): Float32Array {
     const { heap, transforms } = this;

@@ -27,7 +27,7 @@ struct BoundedWeightsReport {
 
 /** Stepped, so that it can show progress and be left at any time: weights() are feasible from the start and only get better. Sweeps
  * of the alternating direction method (Boyd et al. 2011) find out roughly which bounds hold; then Newton's method (primal–dual
- * active sets, Hintermüller, Ito & Kunisch 2002) finds the minimum itself, mostly in 3 to 9 steps. A duality gap tells how near it
+ * active sets, Hintermüller, Ito & Kunisch 2002) finds the minimum itself, mostly in 3 to 12 steps. A duality gap tells how near it
  * is. */
 class BoundedWeights {
  public:
@@ -67,7 +67,7 @@ class BoundedWeights {
   double progress_ = 0, rounding_ = 0, bound_ = 0;
   int sweep_ = 0, most_sweeps_ = 0, newton_step_ = 0;
   Index handle_ = 0;
-  bool newton_pays_ = false;
+  bool newton_fits_ = false;  // in memory, with a factor a handle
 
   // Free vertices are numbered in the order of elimination.
   Numbers number_of_;

@@ -1,0 +1,101 @@
+import { LAYOUT } from './abi.generated.ts';
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
+import { Skin } from './skin.ts';
+import { resolveHandles, type WeightHandle } from './weight-handles.ts';
+
+/**
+ * Of the map f = v + u of the shape:
+ * - `dirichlet` ½ ∫|∇u|²: kinks at the handles, and knows no rotations;
+ * - `laplacian` ½ ∫(Δu)²: smooth, and knows no rotations either;
+ * - `conformal` ½ ∫|∇f|² − area(f): as similar as possible, angles stay, sizes may not;
+ * - `rigid` ½ ∫|∇f − R|², R the nearest rotation: as rigid as possible, by rounds.
+ */
+export type DeformationEnergy = 'dirichlet' | 'laplacian' | 'conformal' | 'rigid';
+
+export interface MinimizeEnergyOptions {
+  readonly energy: DeformationEnergy;
+  /** The most rounds of `rigid` that a frame takes; it starts where the last one stopped. */
+  readonly iterations?: number;
+}
+
+export const MINIMIZE_ENERGY_DEFAULTS = { iterations: 10 } as const;
+
+/** What a frame came to. */
+export interface MinimizeEnergyReport {
+  /** The energy, in units of area (`laplacian`: none). */
+  readonly energy: number;
+  /** Rounds taken; 1 where one solve does. */
+  readonly iterations: number;
+  /** Triangles that were turned over, or lost their area. */
+  readonly flips: number;
+}
+
+const ENERGIES: readonly DeformationEnergy[] = ['dirichlet', 'laplacian', 'conformal', 'rigid'];
+
+/**
+ * The deformation of triangles in the plane that minimizes an energy while the handles hold their vertices, and around a handle of one vertex
+ * the vertices next to it, where their transforms take them (lecture, "Energy-based Deformation"). Parts without a handle move as a whole with
+ * the nearest one. Factors once; a frame is one solve, or one a round.
+ *
+ * ```ts
+ * const map = hb.minimizeEnergy({ positions, dimension: 2, triangles }, [{ vertex: 3 }, { vertex: 40 }], { energy: 'rigid' });
+ * map.transforms.set([0, -1, 2, 1, 0, 0], 6); // turns handle 1 by 90° and shifts it by 2
+ * const { energy, flips } = map.deform(out);
+ * ```
+ */
+export class EnergyMinimizer extends Skin {
+  readonly energy: DeformationEnergy;
+  /** The vertices that each handle was given; not those next to them. */
+  readonly vertices: readonly (readonly number[])[];
+  readonly #iterations: number;
+  readonly #report: number;
+
+  /** @internal Use `Handlebody.minimizeEnergy`. */
+  constructor(heap: Heap, mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions) {
+    const { energy, iterations } = { ...MINIMIZE_ENERGY_DEFAULTS, ...options };
+    const number = ENERGIES.indexOf(energy);
+    if (number === -1) throw badOption(`There is no energy called "${energy}".`, `Use one of: ${ENERGIES.join(', ')}.`);
+    if (!Number.isInteger(iterations) || iterations < 1 || iterations > 1e6)
+      throw badOption(`${iterations} iterations cannot be taken.`, 'Use a whole number, 1 or more.');
+    const checked = checkSimplexMesh(mesh);
+    if (checked.dimension !== 2) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `Energies are minimized in the plane; the mesh has ${checked.dimension} dimensions.`,
+        remedy: 'Give two coordinates a vertex, and dimension: 2.',
+      });
+    }
+    const { positions, simplices, vertexCount, simplexCount } = checked;
+    const vertices = resolveHandles(checked, handles);
+    const owners = vertices.flatMap((list, owner) => list.map(() => owner));
+    super(
+      heap,
+      { dimension: 2, vertexCount, handleCount: handles.length },
+      (e, out, [at = 0, triangles = 0, held = 0, of = 0]) =>
+        e.hb_minimizer_create(at, vertexCount, triangles, simplexCount, held, of, owners.length, handles.length, number, out),
+      (scratch) => [scratch.putF64(positions), scratch.putU32(simplices), scratch.putU32(vertices.flat()), scratch.putU32(owners)],
+    );
+    this.energy = energy;
+    this.vertices = vertices;
+    this.#iterations = iterations;
+    this.#report = heap.alloc(LAYOUT.hb_minimizer_report.sizeof);
+  }
+
+  /** Writes the deformed positions, n×2. Allocates nothing but the report. */
+  deform(out: Float32Array): MinimizeEnergyReport {
+    this.move(out, (e, skin, to) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report));
+    const { energy, iterations } = LAYOUT.hb_minimizer_report;
+    const [taken = 0, flips = 0] = this.heap.u32(this.#report + iterations, 2);
+    return { energy: this.heap.f64(this.#report + energy, 1)[0] ?? 0, iterations: taken, flips };
+  }
+
+  override dispose(): void {
+    if (!this.disposed) this.heap.free(this.#report);
+    super.dispose();
+  }
+}
+
+function badOption(message: string, remedy: string): HandlebodyError {
+  return new HandlebodyError('invalid-option', { message, remedy, culprit: { kind: 'option', index: -1 } });
+}
