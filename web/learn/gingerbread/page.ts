@@ -243,6 +243,7 @@ export class Page {
     this.#weightBox.disabled = !weightsOf(method);
     this.#remove.disabled = !handles[picked];
     this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
+    this.#flips.textContent = '';
     this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`, this.#flips);
     if (method.family === 'irbf') void this.#bake(method);
   }
