@@ -127,6 +127,7 @@ describe('handles', () => {
   it('turn by the knob', async () => {
     const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
     await page.locator('.handle').nth(2).focus();
+    await page.waitForSelector('.knob:visible');
     const middle = await handleAt(page, 1);
     const knob = await page.locator('.knob').boundingBox();
     if (!knob) throw new Error('there is no knob');
