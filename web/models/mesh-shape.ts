@@ -73,6 +73,13 @@ export function triangleArea(positions: ArrayLike<number>, triangles: ArrayLike<
   return (ux * vy - uy * vx) / 2;
 }
 
+/** How many triangles are turned over, with the vertices at other places. */
+export function countFlips(positions: ArrayLike<number>, triangles: ArrayLike<number>): number {
+  let count = 0;
+  for (let t = 0; t < triangles.length; t += 3) if (triangleArea(positions, triangles, t) < 0) count++;
+  return count;
+}
+
 /** Smallest angle of all triangles, degrees. */
 export function smallestAngle(positions: ArrayLike<number>, triangles: ArrayLike<number>): number {
   let least = 180;

@@ -1,5 +1,16 @@
+import { simplify, withoutRepeats } from '../../models/resample.ts';
 import type { Shape } from '../../models/shape.ts';
-import { atRest, type Experiment, type Handle, MOST_HANDLES, type Place, type ShapeName, VERTICES, wrap } from './experiment.ts';
+import {
+  atRest,
+  type Experiment,
+  type Handle,
+  MOST_HANDLES,
+  type Place,
+  type ShapeName,
+  tidy,
+  VERTICES,
+  wrap,
+} from './experiment.ts';
 import { methodOf } from './methods.ts';
 import { SHAPES, shapeOf } from './shapes.ts';
 
@@ -9,7 +20,7 @@ import { SHAPES, shapeOf } from './shapes.ts';
  */
 
 /** Points of an own outline that an address can carry. */
-export const MOST_ADDRESS_POINTS = 400;
+const MOST_ADDRESS_POINTS = 400;
 
 /** What a shape opens with. */
 export function initial(shape: ShapeName = 'man', outline?: Shape): Experiment {
@@ -91,6 +102,15 @@ function readHandles(text: string | undefined): Handle[] | undefined {
         { rest: [x, y] as Place, ...(kind === 'b' ? { end: [ex, ey] as Place } : {}), move: [dx, dy] as Place, turn: wrap(turn) },
       ];
     });
+}
+
+/** An outline that the address can hold: simpler, where it has too many points, and to a thousandth, as the address says it. */
+export function portable(outline: Shape): Shape {
+  let shape = outline.map((ring) => withoutRepeats(ring.map(tidy)));
+  const count = () => shape.reduce((sum, ring) => sum + ring.length / 2, 0);
+  for (let tolerance = 0.001; count() > MOST_ADDRESS_POINTS && tolerance < 0.1; tolerance *= 1.5)
+    shape = shape.map((ring) => simplify(ring, tolerance));
+  return shape;
 }
 
 /** Rings apart by ";", in thousandths. */

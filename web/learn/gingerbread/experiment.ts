@@ -93,6 +93,11 @@ export function bone(from: Place, to: Place, move: Place = [0, 0], turn = 0): Ha
   return { rest: from, end: to, move, turn };
 }
 
+/** The handle where it is at rest. */
+export function resting(handle: Handle): Handle {
+  return { ...handle, move: [0, 0], turn: 0 };
+}
+
 export function copyOf(handle: Handle): Handle {
   return { ...handle };
 }

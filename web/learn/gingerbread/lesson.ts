@@ -1,15 +1,29 @@
 import { HandlebodyError } from '../../../wasm/ts/errors.ts';
 import type { Handlebody } from '../../../wasm/ts/index.ts';
-import { meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
-import { inside, type Shape } from '../../models/shape.ts';
+import { countFlips, meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
+import type { Shape } from '../../models/shape.ts';
 import { readable } from '../../ui/dom.ts';
 import { fromAddress, toAddress } from './address.ts';
 import { Deformer } from './deformer.ts';
-import { bone, copyOf, type Experiment, type Handle, MOST_HANDLES, type Place, placeOf, point, tidy, wrap } from './experiment.ts';
+import { Ease } from './ease.ts';
+import {
+  copyOf,
+  type Experiment,
+  type Handle,
+  MOST_HANDLES,
+  type Place,
+  placeOf,
+  point,
+  resting,
+  tidy,
+  wrap,
+} from './experiment.ts';
 import { type PaintedShape, paintOwn } from './icing.ts';
 import { type Method, type MethodId, methodOf, weightsOf } from './methods.ts';
 import type { Picture } from './picture.ts';
+import { boneIn, emptiest, restOf, spread } from './placing.ts';
 import { shapeOf } from './shapes.ts';
+import { drawTiles, type Tile } from './tiles.ts';
 
 /** The parts of the page that show the experiment. */
 export interface Audience {
@@ -28,14 +42,10 @@ export interface Audience {
 
 /** Milliseconds without a change after which the page writes its address and speaks. */
 const REST = 350;
-/** Milliseconds that a pose takes to be struck. */
-const EASE = 700;
 /** Milliseconds of work that nobody needs to hear of. */
 const PATIENCE = 400;
 /** Frames for which iterations go on after the last change. */
 const MOST_ROUNDS = 60;
-/** Milliseconds of a frame that small pictures may take. */
-const TILES = 10;
 
 /** The shape, its handles and their pose: every change goes through here, and is solved and drawn with the next frame. */
 export class Lesson {
@@ -53,7 +63,7 @@ export class Lesson {
   #painting: PaintedShape | undefined;
   #frame = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  #ease: { from: Handle[]; start: number } | undefined;
+  #ease: Ease | undefined;
   #good: Float32Array;
   #failed: string | undefined;
   /** Frames since something changed. */
@@ -74,7 +84,7 @@ export class Lesson {
     this.#hb = hb;
     this.deformer = new Deformer(hb, this.mesh);
     this.deformer.setHandles(this.experiment.handles);
-    this.#easeFrom(this.experiment.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#easeFrom(this.experiment.handles.map(resting));
     this.#audience.structure();
     this.#change();
   }
@@ -110,7 +120,7 @@ export class Lesson {
       this.#painting = painting;
       this.experiment = experiment;
       [this.outline, this.mesh] = [outline, mesh];
-      if (experiment.shape === 'own' && experiment.handles.length === 0) this.experiment.handles = this.#spread(4);
+      if (experiment.shape === 'own' && experiment.handles.length === 0) this.experiment.handles = spread(this.mesh, 4);
     } catch (error) {
       this.#audience.trouble(error);
       return false;
@@ -121,7 +131,7 @@ export class Lesson {
     this.deformer?.dispose();
     this.deformer = this.#hb && new Deformer(this.#hb, this.mesh);
     this.deformer?.setHandles(experiment.handles);
-    this.#easeFrom(experiment.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#easeFrom(experiment.handles.map(resting));
     this.#audience.trouble(undefined);
     this.#audience.mesh();
     this.#audience.structure();
@@ -191,7 +201,7 @@ export class Lesson {
 
   /** A handle where the shape is now drawn at a place; none where there is nothing. */
   addAt(place: Place): boolean {
-    const rest = this.#restAt(place);
+    const rest = restOf(this.mesh, this.picture.positions, place);
     if (!rest || this.handles.length >= MOST_HANDLES) return false;
     const handle = point(tidy(rest[0]), tidy(rest[1]));
     handle.move = [tidy(place[0] - rest[0]), tidy(place[1] - rest[1])];
@@ -200,27 +210,12 @@ export class Lesson {
 
   addPoint(): boolean {
     if (this.handles.length >= MOST_HANDLES) return false;
-    const [x, y] = this.#emptiest();
-    return this.#restructure([...this.handles, point(tidy(x), tidy(y))], this.handles.length);
+    return this.#restructure([...this.handles, point(...emptiest(this.mesh, this.handles))], this.handles.length);
   }
 
-  /** A bone from the emptiest place towards the middle, as far as it stays inside. */
   addBone(): boolean {
-    if (this.handles.length >= MOST_HANDLES) return false;
-    const from = this.#emptiest();
-    let best: Place = from;
-    let longest = 0;
-    for (let k = 0; k < 32; k++) {
-      const [c, s] = [Math.cos((k * Math.PI) / 16), Math.sin((k * Math.PI) / 16)];
-      let length = 0;
-      while (length < 0.36 && inside(this.outline, from[0] + c * (length + 0.06), from[1] + s * (length + 0.06))) length += 0.02;
-      if (length > longest) [longest, best] = [length, [from[0] + c * length, from[1] + s * length]];
-    }
-    if (longest === 0) return false;
-    return this.#restructure(
-      [...this.handles, bone([tidy(best[0]), tidy(best[1])], [tidy(from[0]), tidy(from[1])])],
-      this.handles.length,
-    );
+    const bone = this.handles.length < MOST_HANDLES && boneIn(this.outline, emptiest(this.mesh, this.handles));
+    return bone ? this.#restructure([...this.handles, bone], this.handles.length) : false;
   }
 
   remove(i: number): void {
@@ -240,13 +235,13 @@ export class Lesson {
     if (method) this.experiment.method = method;
     if (!same) this.#restructure(handles, Math.min(this.picked, handles.length - 1));
     else this.experiment.handles = handles;
-    this.#easeFrom(same ? from : handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.#easeFrom(same ? from : handles.map(resting));
     this.#audience.structure();
     this.#change();
   }
 
   rest(): void {
-    this.strike(this.handles.map((handle) => ({ ...handle, move: [0, 0], turn: 0 })));
+    this.strike(this.handles.map(resting));
   }
 
   setMethod(method: MethodId): void {
@@ -268,19 +263,14 @@ export class Lesson {
     return `${handle.end ? 'Bone' : 'Handle'} ${i}, x ${readable(x)}, y ${readable(y)}, turned ${readable(handle.turn, 0)}°`;
   }
 
+  /** How many triangles are turned over as the shape is drawn. */
+  get flips(): number {
+    return countFlips(this.picture.positions, this.mesh.triangles);
+  }
+
   /** Handles as they are drawn, on their way to a pose. */
   get shown(): readonly Handle[] {
-    if (!this.#ease) return this.experiment.handles;
-    const t = Math.min((performance.now() - this.#ease.start) / EASE, 1);
-    const part = 1 - (1 - t) ** 3;
-    return this.experiment.handles.map((handle, i) => {
-      const from = this.#ease?.from[i] ?? handle;
-      return {
-        ...handle,
-        move: [from.move[0] + (handle.move[0] - from.move[0]) * part, from.move[1] + (handle.move[1] - from.move[1]) * part],
-        turn: from.turn + (handle.turn - from.turn) * part,
-      };
-    });
+    return this.#ease?.at(this.experiment.handles) ?? this.experiment.handles;
   }
 
   // Frames
@@ -289,31 +279,10 @@ export class Lesson {
     this.#change();
   }
 
-  /**
-   * Draws methods' answers to the pose into small pictures, as many as some milliseconds allow; the large one is drawn again after them.
-   * `next` gives a method and where to draw it, and hears whether that was possible.
-   */
-  drawTiles(next: () => { method: Method; context: CanvasRenderingContext2D; done(drawn: boolean): void } | undefined): void {
-    const { picture, deformer } = this;
-    if (!deformer) return;
-    const now = picture.positions.slice();
-    const until = performance.now() + TILES;
-    picture.setWeight(undefined, 0, 0);
-    picture.showLines(false);
-    do {
-      const tile = next();
-      if (!tile) break;
-      try {
-        deformer.deform(tile.method, this.experiment.handles, picture.positions);
-        picture.moved();
-        picture.renderTile(tile.context);
-        tile.done(true);
-      } catch {
-        tile.done(false);
-      }
-    } while (performance.now() < until);
-    picture.positions.set(now);
-    picture.moved();
+  /** Draws methods' answers to the pose into small pictures; the large one is drawn again after them. */
+  drawTiles(next: () => Tile | undefined): void {
+    if (!this.deformer) return;
+    drawTiles(this.picture, this.deformer, this.experiment.handles, next);
     this.#drawShown();
   }
 
@@ -345,7 +314,7 @@ export class Lesson {
 
   #easeFrom(from: Handle[]): void {
     const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
-    this.#ease = still ? undefined : { from, start: performance.now() };
+    this.#ease = still ? undefined : new Ease(from);
   }
 
   #change(): void {
@@ -386,7 +355,7 @@ export class Lesson {
 
   #draw(): void {
     const begun = performance.now();
-    if (this.#ease && begun - this.#ease.start >= EASE) this.#ease = undefined;
+    if (this.#ease?.isOver) this.#ease = undefined;
     const { positions } = this.picture;
     let unfinished = false;
     try {
@@ -416,56 +385,6 @@ export class Lesson {
       if (this.#frame !== 0) return this.#restSoon();
       this.#audience.rest();
     }, REST);
-  }
-
-  /** Where the point of the shape was at rest that is now drawn at a place. */
-  #restAt([x, y]: Place): Place | undefined {
-    const { positions } = this.picture;
-    const { triangles } = this.mesh;
-    for (let t = 0; t < triangles.length; t += 3) {
-      const [a, b, c] = [2 * (triangles[t] as number), 2 * (triangles[t + 1] as number), 2 * (triangles[t + 2] as number)];
-      const [ax, ay] = [positions[a] as number, positions[a + 1] as number];
-      const [ux, uy] = [(positions[b] as number) - ax, (positions[b + 1] as number) - ay];
-      const [vx, vy] = [(positions[c] as number) - ax, (positions[c + 1] as number) - ay];
-      const area = ux * vy - uy * vx;
-      const s = ((x - ax) * vy - (y - ay) * vx) / area;
-      const r = (ux * (y - ay) - uy * (x - ax)) / area;
-      if (!(s >= 0 && r >= 0 && s + r <= 1)) continue;
-      const at = (k: 0 | 1) =>
-        (1 - s - r) * (this.mesh.positions[a + k] as number) +
-        s * (this.mesh.positions[b + k] as number) +
-        r * (this.mesh.positions[c + k] as number);
-      return [at(0), at(1)];
-    }
-    return undefined;
-  }
-
-  /** Points far from each other. */
-  #spread(count: number): Handle[] {
-    const handles: Handle[] = [];
-    for (let i = 0; i < count; i++) {
-      const [x, y] = this.#emptiest(handles);
-      handles.push(point(tidy(x), tidy(y)));
-      // The first is only where to start from.
-      if (i === 0) handles[0] = point(...this.#emptiest(handles));
-    }
-    return handles.map(({ rest }) => point(tidy(rest[0]), tidy(rest[1])));
-  }
-
-  /** The vertex farthest from all handles, at rest. */
-  #emptiest(handles = this.handles): Place {
-    const { positions, border } = this.mesh;
-    const rim = new Set(border);
-    let [best, farthest] = [[positions[0] as number, positions[1] as number] as Place, -1];
-    for (let i = 0; i < positions.length; i += 2) {
-      if (rim.has(i / 2)) continue;
-      const [x, y] = [positions[i] as number, positions[i + 1] as number];
-      let least = Infinity;
-      for (const { rest, end } of handles)
-        for (const [px, py] of end ? [rest, end] : [rest]) least = Math.min(least, Math.hypot(x - px, y - py));
-      if (least > farthest) [best, farthest] = [[x, y], least];
-    }
-    return best;
   }
 }
 

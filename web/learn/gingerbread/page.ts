@@ -1,11 +1,11 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
-import { simplify, withoutRepeats } from '../../models/resample.ts';
 import type { Shape } from '../../models/shape.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
-import { ColorMap } from '../interpolation/color-map.ts';
-import { initial, MOST_ADDRESS_POINTS } from './address.ts';
-import { type Handle, type ShapeName, tidy, VERTICES } from './experiment.ts';
+import { initial, portable } from './address.ts';
+import { captionOf, legend } from './captions.ts';
+import { type ShapeName, VERTICES } from './experiment.ts';
+import { listenForFiles } from './files.ts';
 import { HandlePanel } from './handle-panel.ts';
 import { Handles } from './handles.ts';
 import type { PaintedShape } from './icing.ts';
@@ -32,6 +32,7 @@ export class Page {
   readonly #note = byId('note');
   readonly #trouble = byId('trouble');
   readonly #caption = h('p', { class: 'caption' });
+  readonly #flips = h('span', {});
   readonly #legend: HTMLElement;
   readonly #poses = h('div', { class: 'poses', role: 'group', 'aria-label': 'Poses' });
   readonly #facts = h('p', { class: 'soft small' });
@@ -109,7 +110,7 @@ export class Page {
       input.addEventListener('change', () => this.#turnTo(input.value as ShapeName));
     byId('copy').addEventListener('click', () => void this.#copy());
     addEventListener('hashchange', () => lesson.open(location.hash));
-    this.#listenForFiles();
+    listenForFiles(this.#file, byId('veil'), (file) => void this.#takeFile(file));
     this.#mesh();
     this.#structure();
     lesson.redraw();
@@ -196,43 +197,18 @@ export class Page {
       input.checked = input.value === this.#lesson.experiment.shape;
   }
 
-  #listenForFiles(): void {
-    const take = async (file: File | undefined) => {
-      if (!file) return;
-      try {
-        this.#busy('Tracing the picture …');
-        // Only who opens a picture needs what traces it.
-        const { openPicture } = await import('./open-picture.ts');
-        const { outline, painting } = await openPicture(file);
-        this.#takeOutline(outline, painting);
-      } catch (error) {
-        this.#tell(error);
-      } finally {
-        this.#busy(undefined);
-      }
-    };
-    this.#file.addEventListener('change', () => {
-      const file = this.#file.files?.[0];
-      // The same file may be chosen again.
-      this.#file.value = '';
-      void take(file);
-    });
-    const veil = byId('veil');
-    const carries = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    addEventListener('dragover', (event) => {
-      if (!carries(event)) return;
-      event.preventDefault();
-      veil.hidden = false;
-    });
-    addEventListener('dragleave', (event) => {
-      if (!event.relatedTarget) veil.hidden = true;
-    });
-    addEventListener('drop', (event) => {
-      if (!carries(event)) return;
-      event.preventDefault();
-      veil.hidden = true;
-      void take(event.dataTransfer?.files[0]);
-    });
+  async #takeFile(file: File): Promise<void> {
+    try {
+      this.#busy('Tracing the picture …');
+      // Only who opens a picture needs what traces it.
+      const { openPicture } = await import('./open-picture.ts');
+      const { outline, painting } = await openPicture(file);
+      this.#takeOutline(outline, painting);
+    } catch (error) {
+      this.#tell(error);
+    } finally {
+      this.#busy(undefined);
+    }
   }
 
   #mesh(): void {
@@ -267,7 +243,8 @@ export class Page {
     this.#weightBox.disabled = !weightsOf(method);
     this.#remove.disabled = !handles[picked];
     this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
-    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`);
+    this.#flips.textContent = '';
+    this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`, this.#flips);
     if (method.family === 'irbf') void this.#bake(method);
   }
 
@@ -300,6 +277,8 @@ export class Page {
       this.#requirements.refresh();
     } else this.#requirements.resume();
     this.#tellIslands();
+    const { flips } = lesson;
+    this.#flips.textContent = flips === 0 ? '' : ` ${flips} ${flips === 1 ? 'triangle is' : 'triangles are'} turned over.`;
     this.#strip.refresh();
     this.#main.dataset.rest = 'yes';
   }
@@ -379,38 +358,4 @@ export class Page {
       this.#live.textContent = 'The link is in the address bar.';
     }
   }
-}
-
-/** An outline that the address can hold: simpler, where it has too many points, and to a thousandth, as the address says it. */
-function portable(outline: Shape): Shape {
-  let shape = outline.map((ring) => withoutRepeats(ring.map(tidy)));
-  const count = () => shape.reduce((sum, ring) => sum + ring.length / 2, 0);
-  for (let tolerance = 0.001; count() > MOST_ADDRESS_POINTS && tolerance < 0.1; tolerance *= 1.5)
-    shape = shape.map((ring) => simplify(ring, tolerance));
-  return shape;
-}
-
-function captionOf(method: Method, handles: readonly Handle[]): string {
-  if (handles.length === 0) return 'without a handle: the shape rests.';
-  const turned = handles.some(({ turn }) => Math.abs(turn) > 120);
-  if (method.family === 'linear')
-    return `weights, transformations blended linearly.${turned ? ' Where a turn fades out, the shape collapses: look at Rigid.' : ''}`;
-  if (method.family === 'rigid') return `weights, rotations blended as rotations.${turned ? ' Nothing collapses.' : ''}`;
-  return method.family === 'energy' ? 'under the same handles, without weights.' : 'on the shape as a thin slab.';
-}
-
-function legend(): HTMLElement {
-  const strip = h('span', { class: 'legend-strip' });
-  strip.style.background = new ColorMap('viridis', 0, 1).gradient;
-  return h(
-    'p',
-    { class: 'legend', hidden: true },
-    h('span', {}, '0'),
-    strip,
-    h('span', {}, '1'),
-    h('span', { class: 'hatch below' }),
-    h('span', {}, 'below 0'),
-    h('span', { class: 'hatch above' }),
-    h('span', {}, 'above 1'),
-  );
 }

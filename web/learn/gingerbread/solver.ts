@@ -34,6 +34,9 @@ export interface Weights {
   dispose(): void;
 }
 
+/** The most rounds of the rigid energy in a frame; the next frame goes on from there. */
+const ROUNDS = 8;
+
 const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
 
 export function solveWeights(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
@@ -85,9 +88,14 @@ function settled(skin: LinearBlend | DualQuaternion): Deformation {
   };
 }
 
-export function energyMinimizer(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], _energy: EnergyKind): Deformation {
-  // TEMPORARY until energies come.
-  return linearBlend(hb, mesh, solveWeights(hb, mesh, handles, 'harmonic').weights);
+export function energyMinimizer(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], energy: EnergyKind): Deformation {
+  const minimizer = hb.minimizeEnergy({ ...mesh, dimension: 2 }, handles.map(weightHandle), { energy, iterations: ROUNDS });
+  return {
+    transforms: minimizer.transforms,
+    // Rounds that were not all needed have converged.
+    deform: (out) => minimizer.deform(out).iterations === ROUNDS,
+    dispose: () => minimizer.dispose(),
+  };
 }
 
 /** A requirement of the lecture's on weights, measured: the number at its worst, and whether it holds. */

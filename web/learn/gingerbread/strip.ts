@@ -2,7 +2,7 @@ import { h } from '../../ui/dom.ts';
 import type { Lesson } from './lesson.ts';
 import { METHODS, type Method, type MethodId } from './methods.ts';
 
-interface Tile {
+interface Entry {
   readonly method: Method;
   readonly button: HTMLButtonElement;
   readonly context: CanvasRenderingContext2D;
@@ -13,8 +13,8 @@ interface Tile {
 export class Strip {
   readonly element: HTMLElement;
   readonly #lesson: Lesson;
-  readonly #tiles: Tile[];
-  #queue: Tile[] = [];
+  readonly #tiles: Entry[];
+  #queue: Entry[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(lesson: Lesson, choose: (id: MethodId) => void) {
@@ -50,7 +50,7 @@ export class Strip {
   /** Everything is to be drawn again, soon; what is chosen first, what takes long last. */
   refresh(): void {
     const { deformer } = this.#lesson;
-    const rank = ({ method }: Tile) => (deformer?.isReady(method) ? 0 : method.kind === 'bounded' ? 2 : 1);
+    const rank = ({ method }: Entry) => (deformer?.isReady(method) ? 0 : method.kind === 'bounded' ? 2 : 1);
     this.element.toggleAttribute('data-done', false);
     this.#queue = [...this.#tiles].sort((a, b) => rank(a) - rank(b));
     this.#schedule();
@@ -88,7 +88,7 @@ export class Strip {
   }
 }
 
-function show({ context, button }: Tile, drawn: boolean): void {
+function show({ context, button }: Entry, drawn: boolean): void {
   if (!drawn) context.clearRect(0, 0, context.canvas.width, context.canvas.height);
   button.toggleAttribute('data-drawn', drawn);
 }
