@@ -1,10 +1,11 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or irbf) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or irbf, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
 const PARTS = {
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf.mjs')).benchIrbf(),
+  skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),
 };
 
 await runMain(async () => {

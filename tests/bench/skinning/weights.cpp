@@ -50,10 +50,11 @@ int main(int count, char** arguments) {
   BoundedWeightsReport report;
   for (int round = 0; round < rounds; ++round) {
     const double start = milliseconds();
-    auto unbounded = PolyharmonicWeights::create(mesh, 2, Mass::voronoi);
-    if (!unbounded || !unbounded->set_handles(held)) return 1;
+    auto created = PolyharmonicWeights::create(mesh, 2, Mass::voronoi);
+    if (!created || !(*created)->set_handles(held)) return 1;
+    const PolyharmonicWeights& unbounded = **created;
     const double made = milliseconds();
-    auto weights = BoundedWeights::create(unbounded->energy(), unbounded->mass(), unbounded->held(), unbounded->weights());
+    auto weights = BoundedWeights::create(unbounded.energy(), unbounded.mass(), unbounded.held(), unbounded.weights());
     if (!weights) return 1;
     double worst = 0;
     for (double before = milliseconds(); !(*weights)->done();) {

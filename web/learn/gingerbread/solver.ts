@@ -1,4 +1,10 @@
-import type { DualQuaternion, Handlebody, LinearBlend, WeightHandle } from '../../../wasm/ts/index.ts';
+import {
+  type DualQuaternion,
+  type Handlebody,
+  type LinearBlend,
+  WEIGHT_REQUIREMENTS,
+  type WeightHandle,
+} from '../../../wasm/ts/index.ts';
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Handle } from './experiment.ts';
 import type { EnergyKind, WeightsKind } from './methods.ts';
@@ -106,9 +112,15 @@ export interface Measure {
 
 /** What the lecture asks of weights, in the order of the measures. */
 export const REQUIREMENTS: readonly { readonly name: string; readonly said: string }[] = [
-  { name: 'Smooth', said: 'the largest jump of the gradient between triangles, as a part of the largest gradient; at most 0.5.' },
-  { name: 'Local', said: 'the largest weight where another handle is twice as near; at most 0.3.' },
-  { name: 'Shape-aware', said: 'the largest weight of a handle that is near through the air only; at most 0.25.' },
+  {
+    name: 'Smooth',
+    said: `the largest jump of the gradient between triangles, as a part of the largest gradient; at most ${WEIGHT_REQUIREMENTS.smooth}.`,
+  },
+  { name: 'Local', said: `the largest weight where another handle is twice as near; at most ${WEIGHT_REQUIREMENTS.local}.` },
+  {
+    name: 'Shape-aware',
+    said: `the largest weight of a handle that is near through the air only; at most ${WEIGHT_REQUIREMENTS.shapeAware}.`,
+  },
   { name: 'Sums to 1', said: 'the largest difference of the sum from 1.' },
   { name: 'Bounded', said: 'the farthest that a weight leaves 0 to 1.' },
 ];

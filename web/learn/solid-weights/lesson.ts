@@ -3,11 +3,12 @@ import type { View } from '../../stage/view.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { isAbort, type Messages } from '../../ui/messages.ts';
 import type { Progress } from '../../ui/progress.ts';
+import type { Weights } from './messages.ts';
 import { type Blend, Panel } from './panel.ts';
 import { atRest, type Pose, writeTransform } from './pose.ts';
 import { SkinMesh } from './skin-mesh.ts';
 import { SOLIDS, type Solid } from './solids.ts';
-import { computeWeights, type Method, type Weights } from './weights.ts';
+import { computeWeights, type Method } from './weights.ts';
 
 interface Parts {
   readonly view: View;

@@ -1,8 +1,9 @@
 import { h, readable } from '../../ui/dom.ts';
 import { ColorMap } from '../interpolation/color-map.ts';
+import type { Weights } from './messages.ts';
 import { atRest, type Pose } from './pose.ts';
 import type { Solid } from './solids.ts';
-import { METHODS, type Method, type Weights } from './weights.ts';
+import { METHODS, type Method } from './weights.ts';
 
 export type Blend = 'linear' | 'rigid';
 

@@ -1,7 +1,7 @@
 // Computes weights off the main thread: a solid in, its weights at the surface's vertices out.
 import { load } from '../../../wasm/ts/index.ts';
 import { explain } from '../../ui/explain.ts';
-import type { Answer, Question } from './weights.ts';
+import type { Answer, Question } from './messages.ts';
 
 addEventListener('message', async ({ data }: MessageEvent<Question>) => {
   let answer: Answer;

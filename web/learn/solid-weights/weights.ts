@@ -1,6 +1,5 @@
-import type { WeightHandle, WeightMeasures } from '../../../wasm/ts/index.ts';
-import type { Told } from '../../ui/explain.ts';
 import { PageError } from '../../ui/page-error.ts';
+import type { Answer, Question, Weights } from './messages.ts';
 import type { Solid } from './solids.ts';
 
 export type Method = 'harmonic' | 'biharmonic' | 'bounded' | 'triharmonic';
@@ -11,26 +10,6 @@ export const METHODS: readonly { readonly id: Method; readonly label: string; re
   { id: 'bounded', label: 'Bounded', about: 'Least ∫(Δw)² among weights from 0 to 1, of all handles together.' },
   { id: 'triharmonic', label: 'Triharmonic', about: 'Least ∫|∇Δw|²: smoother, farther out of bounds.' },
 ];
-
-export interface Question {
-  readonly positions: Float32Array;
-  readonly triangles: Uint32Array;
-  readonly resolution: number;
-  readonly handles: readonly WeightHandle[];
-  readonly order: 1 | 2 | 3;
-  readonly bounded: boolean;
-}
-
-export interface Weights {
-  /** vertices of the surface × handles. */
-  readonly weights: Float32Array;
-  readonly tetrahedra: number;
-  readonly vertices: number;
-  readonly measures: Pick<WeightMeasures, 'holds' | 'least' | 'largest' | 'sumError' | 'gradientJump' | 'farWeight'>;
-}
-
-/** What the worker says: how far it is, what went wrong, or the weights. */
-export type Answer = Weights | { readonly part: number } | { readonly told: Told };
 
 const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
 
