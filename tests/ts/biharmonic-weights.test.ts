@@ -183,6 +183,13 @@ describe('biharmonic weights', () => {
       expect(parts).toEqual([...parts].sort((a, b) => a - b));
     });
 
+    it('of one handle are all 1, with nothing to bound', async () => {
+      using weights = hb.biharmonicWeights(mesh, handles.slice(0, 1));
+      const report = await weights.bound();
+      expect(report.sweeps).toBe(0);
+      expect(largest(weights.weights.map((w) => w - 1))).toBeLessThan(1e-9);
+    });
+
     it('are given up when other handles are set meanwhile', async () => {
       using weights = hb.biharmonicWeights(mesh, handles);
       const running = weights.bound({ onProgress: () => weights.setHandles([{ vertex: 0 }, { vertex: 9 }]) });

@@ -151,7 +151,10 @@ test('bad input is named', () => {
   expect(failure({ dimension: 3 as 2 }).code).toBe('invalid-shape');
   expect(failure({ triangles: [0, 1] }).code).toBe('invalid-shape');
   expect(failure({ triangles: [0, 1, 99] }, [{ vertex: 0 }]).code).toBe('mesh-index-out-of-range');
-  expect(failure({ triangles: [0, 1, 2] }, [{ vertex: 0 }])).toMatchObject({ code: 'mesh-degenerate', culprit: { kind: 'triangle', index: 0 } });
+  expect(failure({ triangles: [0, 1, 2] }, [{ vertex: 0 }])).toMatchObject({
+    code: 'mesh-degenerate',
+    culprit: { kind: 'triangle', index: 0 },
+  });
   expect(failure({}, []).code).toBe('handles-missing');
   expect(failure({}, [{ vertex: 3 }, { vertex: 99 }])).toMatchObject({
     code: 'handle-out-of-range',

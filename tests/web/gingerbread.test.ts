@@ -529,13 +529,17 @@ describe('manners', () => {
   it('a lost context comes back by itself', async () => {
     const { page } = await bend(browser, '#man');
     const before = await picture(page);
-    await page.evaluate(async () => {
-      const gl = (document.getElementById('canvas') as HTMLCanvasElement).getContext('webgl2');
-      const lose = gl?.getExtension('WEBGL_lose_context');
-      lose?.loseContext();
-      await new Promise((resolve) => setTimeout(resolve, 100));
-      lose?.restoreContext();
-    });
+    const lose = (what: 'loseContext' | 'restoreContext') =>
+      page.evaluate((method) => {
+        const canvas = document.getElementById('canvas') as HTMLCanvasElement;
+        const keep = globalThis as { extension?: WEBGL_lose_context | null };
+        keep.extension ??= canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
+        keep.extension?.[method]();
+      }, what);
+    await lose('loseContext');
+    await page.locator('#note', { hasText: 'interrupted' }).waitFor();
+    await lose('restoreContext');
+    await page.locator('#note').waitFor({ state: 'hidden' });
     await soon(async () => difference(before, await picture(page))).toBeLessThan(200);
   });
 

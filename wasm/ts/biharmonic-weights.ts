@@ -79,6 +79,8 @@ export class BiharmonicWeights {
   #report: BoundedReport | undefined;
   /** Of bounding that is under way. */
   #pending: BoundedReport | undefined;
+  /** Counts boundings and what ends them, so that one notices when something else came in between. */
+  #run = 0;
 
   /** @internal Use `Handlebody.biharmonicWeights`. */
   constructor(heap: Heap, mesh: SimplexMesh, handles: readonly WeightHandle[], options: BiharmonicWeightsOptions = {}) {
@@ -181,12 +183,13 @@ export class BiharmonicWeights {
     });
     this.#vertices = resolved;
     this.#pending = undefined;
+    this.#run++;
     this.#read();
     if (!this.#bounded) return;
-    this.#beginBounding(BOUND_DEFAULTS.tolerance);
+    const run = this.#beginBounding(BOUND_DEFAULTS.tolerance);
     this.#heap.scope((scratch) => {
       const progress = scratch.reserve(8);
-      do this.#step(progress);
+      do this.#step(progress, run);
       while ((this.#heap.f64(progress, 1)[0] ?? 1) < 1);
     });
     this.#read();
@@ -198,9 +201,9 @@ export class BiharmonicWeights {
    */
   async bound(options: BoundOptions = {}): Promise<BoundedReport> {
     throwIfAborted(options.signal);
-    this.#beginBounding(options.tolerance ?? BOUND_DEFAULTS.tolerance);
-    await runStepped(this.#heap, (progress) => this.#step(progress), options);
-    if (!this.#pending) {
+    const run = this.#beginBounding(options.tolerance ?? BOUND_DEFAULTS.tolerance);
+    await runStepped(this.#heap, (progress) => this.#step(progress, run), options);
+    if (run !== this.#run) {
       throw new HandlebodyError('aborted', {
         message: 'Other handles were set while the weights of the former ones were bounded.',
         remedy: 'Bound the weights again.',
@@ -226,20 +229,25 @@ export class BiharmonicWeights {
     this.dispose();
   }
 
-  #beginBounding(tolerance: number): void {
+  #beginBounding(tolerance: number): number {
     this.#pending = undefined;
     this.#heap.check((e) => e.hb_skinning_weights_bound_begin(this.#handle, tolerance));
+    return ++this.#run;
   }
 
-  #step(progress: number): void {
+  #step(progress: number, run: number): void {
     const heap = this.#heap;
+    // What something else put an end to is over.
+    if (run !== this.#run) {
+      heap.f64(progress, 1)[0] = 1;
+      return;
+    }
     heap.scope((scratch) => {
       const layout = LAYOUT.hb_bounded_report;
       const report = scratch.reserve(layout.sizeof);
       heap.check((e) => e.hb_skinning_weights_bound_step(this.#handle, progress, report));
       const double = (offset: number) => heap.f64(report + offset, 1)[0] ?? 0;
       const word = (offset: number) => heap.u32(report + offset, 1)[0] ?? 0;
-      if (word(layout.sweeps) === 0) return;
       this.#pending = {
         energy: double(layout.energy),
         gap: double(layout.gap),

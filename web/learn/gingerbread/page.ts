@@ -106,6 +106,14 @@ export class Page {
       lesson.redraw();
       this.#strip.refresh();
     }).observe(area);
+    const canvas = byId('canvas');
+    canvas.addEventListener('webglcontextlost', () =>
+      this.#busy('The graphics card was interrupted; the picture comes back by itself.'),
+    );
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.#busy(undefined);
+      lesson.redraw();
+    });
     for (const input of document.querySelectorAll<HTMLInputElement>('input[name=shape]'))
       input.addEventListener('change', () => this.#turnTo(input.value as ShapeName));
     byId('copy').addEventListener('click', () => void this.#copy());

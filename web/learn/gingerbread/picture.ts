@@ -79,7 +79,6 @@ export class Picture {
     this.#rim = new LineSegments(this.#border, new LineBasicMaterial({ color: 0x8f93a3, depthTest: false }));
     for (const object of [this.#mesh, this.#wires, this.#rim]) object.frustumCulled = false;
     this.#scene.add(this.#mesh, this.#wires, this.#rim);
-    canvas.addEventListener('webglcontextrestored', () => this.render());
   }
 
   /** Another shape: its mesh at rest and its picture. */
