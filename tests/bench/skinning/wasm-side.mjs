@@ -40,6 +40,9 @@ for (const dimension of /** @type {const} */ ([2, 3])) {
       from[round] = round;
       const part = from.subarray(0, sizes[form]);
       for (let twice = 0; twice < 2; twice++) keepLeast(`${form} copy ${dimension}D`, () => to.set(part));
+      // What the interface adds to the blending: positions go from the solver's memory into the caller's array.
+      const result = from.subarray(0, positions.length);
+      for (let twice = 0; twice < 2; twice++) keepLeast(`${form} out ${dimension}D`, () => out.set(result));
     }
   }
   for (const skin of Object.values(skins)) skin.dispose();
