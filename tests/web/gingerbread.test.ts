@@ -3,7 +3,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import { bend, covered, finished, handleAt, picture, pngOf, rested, spoken } from './support/gingerbread.ts';
 import { cramped, violations } from './support/manners.ts';
-import { difference, frames, launch, PHONE, soon, swipe } from './support/studio.ts';
+import { difference, frames, launch, loseContext, PHONE, soon, swipe } from './support/studio.ts';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -529,17 +529,7 @@ describe('manners', () => {
   it('a lost context comes back by itself', async () => {
     const { page } = await bend(browser, '#man');
     const before = await picture(page);
-    const lose = (what: 'loseContext' | 'restoreContext') =>
-      page.evaluate((method) => {
-        const canvas = document.getElementById('canvas') as HTMLCanvasElement;
-        const keep = globalThis as { extension?: WEBGL_lose_context | null };
-        keep.extension ??= canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
-        keep.extension?.[method]();
-      }, what);
-    await lose('loseContext');
-    await page.locator('#note', { hasText: 'interrupted' }).waitFor();
-    await lose('restoreContext');
-    await page.locator('#note').waitFor({ state: 'hidden' });
+    await loseContext(page);
     await soon(async () => difference(before, await picture(page))).toBeLessThan(200);
   });
 

@@ -2,7 +2,20 @@ import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
 import { ball, glb, poseGlb } from './support/files.ts';
 import { cramped, violations } from './support/manners.ts';
-import { difference, distance, frames, launch, openFile, PHONE, picture, settled, soon, surface, visit } from './support/studio.ts';
+import {
+  difference,
+  distance,
+  frames,
+  launch,
+  loseContext,
+  openFile,
+  PHONE,
+  picture,
+  settled,
+  soon,
+  surface,
+  visit,
+} from './support/studio.ts';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -171,17 +184,7 @@ describe('the view', () => {
   it('comes back after its WebGL context was lost', async () => {
     const { page } = await visit(browser);
     const before = await picture(page);
-    const lose = (what: 'loseContext' | 'restoreContext') =>
-      page.evaluate((method) => {
-        const canvas = document.getElementById('canvas') as HTMLCanvasElement;
-        const keep = globalThis as { extension?: WEBGL_lose_context | null };
-        keep.extension ??= canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
-        keep.extension?.[method]();
-      }, what);
-    await lose('loseContext');
-    await page.locator('#note', { hasText: 'interrupted' }).waitFor();
-    await lose('restoreContext');
-    await page.locator('#note').waitFor({ state: 'hidden' });
+    await loseContext(page);
     await soon(async () => difference(before, await picture(page))).toBeLessThan(50);
   });
 

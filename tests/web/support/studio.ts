@@ -131,6 +131,21 @@ export function soon<T>(read: () => T) {
   return expect.poll(read, { timeout: 30_000 });
 }
 
+/** Takes the WebGL context of the page's canvas away, waits for the note that says so, gives it back and waits until the note goes. */
+export async function loseContext(page: Page): Promise<void> {
+  const call = (what: 'loseContext' | 'restoreContext') =>
+    page.evaluate((method) => {
+      const canvas = document.getElementById('canvas') as HTMLCanvasElement;
+      const keep = globalThis as { extension?: WEBGL_lose_context | null };
+      keep.extension ??= canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
+      keep.extension?.[method]();
+    }, what);
+  await call('loseContext');
+  await page.locator('#note', { hasText: 'interrupted' }).waitFor();
+  await call('restoreContext');
+  await page.locator('#note').waitFor({ state: 'hidden' });
+}
+
 /** A finger that goes down at a place moves from there and lifts. */
 export async function swipe(page: Page, x: number, y: number, dx: number, dy: number): Promise<void> {
   const cdp = await page.context().newCDPSession(page);
