@@ -23,6 +23,9 @@ export class Lesson {
   #abort = new AbortController();
   #solid: Solid | undefined;
   #mesh: SkinMesh | undefined;
+  /** Of the solid at rest. */
+  #diagonal = 1;
+  #volume = 1;
   #panel: Panel | undefined;
   #poses: Pose[] = [];
   #chosen = 0;
@@ -52,6 +55,8 @@ export class Lesson {
       if (!solid || signal.aborted) return;
       history.replaceState(null, '', `#${id}`);
       this.#solid = solid;
+      this.#diagonal = diagonalOf(solid.positions);
+      this.#volume = volumeOf(solid.positions, solid.triangles);
       this.#weights = undefined;
       this.#poses = solid.handles.map(atRest);
       this.#chosen = solid.chosen;
@@ -148,16 +153,15 @@ export class Lesson {
       this.#waiting = false;
       const [solid, skin, mesh] = [this.#solid, this.#skins?.[this.#blend], this.#mesh];
       if (!solid || !skin || !mesh || !this.#weights) return;
-      const size = diagonalOf(solid.positions);
       const { transforms } = skin;
       this.#poses.forEach((pose, j) => {
         const handle = solid.handles[j];
-        if (handle) writeTransform(pose, handle.center, size, transforms, 12 * j);
+        if (handle) writeTransform(pose, handle.center, this.#diagonal, transforms, 12 * j);
       });
       skin.deform(mesh.positions);
       mesh.moved();
       this.#parts.view.changed();
-      this.#panel?.measured(this.#weights, volumeOf(mesh.positions, solid.triangles) / volumeOf(solid.positions, solid.triangles));
+      this.#panel?.measured(this.#weights, volumeOf(mesh.positions, solid.triangles) / this.#volume);
     });
   }
 }

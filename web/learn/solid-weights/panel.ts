@@ -11,7 +11,6 @@ export interface PanelActions {
   setMethod(method: Method): void;
   setBlend(blend: Blend): void;
   choose(handle: number): void;
-  /** -1 for none. */
   showWeight(shown: boolean): void;
   pose(handle: number, pose: Pose): void;
   reset(): void;

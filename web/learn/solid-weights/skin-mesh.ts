@@ -11,6 +11,9 @@ import {
 } from 'three';
 import { ColorMap } from '../interpolation/color-map.ts';
 
+/** No weight: the shader leaves such vertices plain. */
+const PLAIN = -1e9;
+
 /** A surface that is colored by a weight, with a line for each tenth. */
 export class SkinMesh extends Mesh<BufferGeometry, MeshStandardMaterial> {
   readonly positions: Float32Array;
@@ -33,8 +36,8 @@ export class SkinMesh extends Mesh<BufferGeometry, MeshStandardMaterial> {
   /** Column `handle` of rows of `count` weights; none leaves the surface plain. */
   showWeight(weights: Float32Array, count: number, handle: number): void {
     const out = this.#weight.array;
-    for (let v = 0; v < out.length; v++) out[v] = handle < 0 ? Number.NaN : (weights[v * count + handle] as number);
-    if (handle < 0) out.fill(-1e9);
+    if (handle < 0) out.fill(PLAIN);
+    else for (let v = 0; v < out.length; v++) out[v] = weights[v * count + handle] as number;
     this.#weight.needsUpdate = true;
   }
 
@@ -58,7 +61,7 @@ function weightMaterial(): MeshStandardMaterial {
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nattribute float weight;\nvarying float vWeight;')
       .replace('#include <begin_vertex>', '#include <begin_vertex>\nvWeight = weight;');
-    // Lines at each tenth, as wide as one and a half pixels; beyond [0, 1] stripes say that the weight is out of bounds.
+    // Lines at each tenth, about a pixel wide.
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform sampler2D ramp;\nvarying float vWeight;')
       .replace(

@@ -49,7 +49,7 @@ function makeBar(): Solid {
   };
 }
 
-/** The studio's handles, and one in the chest, from which the rest can be turned. */
+/** The studio's handles. */
 const DOG: readonly (readonly [name: string, vertex: number])[] = [
   ['Front right paw', 1172],
   ['Front left paw', 4946],
