@@ -1,8 +1,9 @@
-/** GLB files to typed arrays and back, by glTF-Transform: "handlebody/gltf-transform". Knows no three.js. */
+/** GLB files to typed arrays and back, by glTF-Transform, and OBJ and PLY to typed arrays: "handlebody/gltf-transform". Knows no three.js. */
 export { type BodyAccessorName, BodyExtension, BodyProperty } from './body-extension.ts';
 export { checkGlb, type GlbParts } from './check-glb.ts';
 export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './check-gltf.ts';
 export type { MeshRange } from './concatenate.ts';
+export type { FileMesh } from './file-mesh.ts';
 export { readGlb, writeGlb } from './glb.ts';
 export type { GltfJson } from './gltf-json.ts';
 export { createIo, HANDLEBODY_EXTENSIONS, type IoOptions } from './io.ts';
@@ -11,5 +12,7 @@ export { PoseSpaceExtension, PoseSpaceProperty } from './pose-space-extension.ts
 export { attachPoseSpace, readPoseSpaces } from './pose-spaces.ts';
 export { readBody } from './read-body.ts';
 export { type PrimitiveRange, readMesh } from './read-mesh.ts';
+export { readObj } from './read-obj.ts';
+export { readPly } from './read-ply.ts';
 export { HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, type PoseSpaceData } from './schema.ts';
 export { attachBody, detachBody } from './write-body.ts';

@@ -62,6 +62,13 @@ typedef enum hb_status {
   HB_ERROR_FILE_UNSUPPORTED = 103, /* valid, but needs a feature or extension we do not read */
   HB_ERROR_FILE_UNREADABLE = 104,  /* network or file system */
 
+  /* the command */
+  HB_ERROR_USAGE = 140, /* arguments that cannot be meant */
+  HB_ERROR_OUTPUT_UNWRITABLE = 141,
+  HB_ERROR_BODY_MISSING = 142, /* a model that is not baked */
+  HB_ERROR_POSE_SPACE_MISSING = 143,
+  HB_ERROR_HANDLES_INVALID = 144, /* handles.json says something unknown, or not all that it has to */
+
   /* outlines and pictures */
   HB_ERROR_OUTLINE_TOO_FEW = 120, /* fewer than three points in a ring */
   HB_ERROR_OUTLINE_NOT_FINITE = 121,

@@ -1,0 +1,89 @@
+/** The command line as checked values. What cannot be meant is a 'usage' error. */
+import { type ParseArgsConfig, parseArgs } from 'node:util';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+
+export type Options = NonNullable<ParseArgsConfig['options']>;
+export type Values = Record<string, string | boolean | (string | boolean)[] | undefined>;
+
+/** What every subcommand takes. */
+export const COMMON: Options = {
+  json: { type: 'boolean' },
+  quiet: { type: 'boolean', short: 'q' },
+  help: { type: 'boolean', short: 'h' },
+};
+
+/** And those that write a file. */
+export const WRITES: Options = { output: { type: 'string', short: 'o' }, force: { type: 'boolean', short: 'f' } };
+
+export function usageError(message: string, remedy: string): HandlebodyError {
+  return new HandlebodyError('usage', { message, remedy });
+}
+
+/** Options and words of a subcommand. An option given twice is refused, since one of the two would be silently lost. */
+export function parseCommandLine(command: string, args: string[], own: Options): { values: Values; words: string[] } {
+  const remedy = `Run "handlebody ${command} --help" to see what it takes.`;
+  try {
+    const { values, positionals, tokens } = parseArgs({
+      args: joinNegative(args),
+      options: { ...COMMON, ...own },
+      allowPositionals: true,
+      tokens: true,
+    });
+    const names = tokens.flatMap((token) => (token.kind === 'option' ? [token.name] : []));
+    const twice = names.find((name, i) => names.indexOf(name) !== i);
+    if (twice) throw usageError(`--${twice} is given twice.`, 'Give it once.');
+    return { values: values as Values, words: positionals };
+  } catch (error) {
+    if (error instanceof HandlebodyError) throw error;
+    // Node's own sentence, without the advice on "--" that follows it.
+    const [sentence = ''] = (error instanceof Error ? error.message : String(error)).split(/(?<=')\. |\n/);
+    throw usageError(`${sentence.replace(/\.$/, '')}.`, remedy);
+  }
+}
+
+/** The one file that a subcommand works on. */
+export function theFile(command: string, words: readonly string[], what: string): string {
+  const [file, ...rest] = words;
+  if (file === undefined || file === '')
+    throw usageError(`"handlebody ${command}" needs ${what}.`, `See "handlebody ${command} --help".`);
+  if (rest.length > 0)
+    throw usageError(`There is more than one file: "${file}" and "${rest[0]}".`, 'Give one; the output comes after -o.');
+  return file;
+}
+
+/** The output, which has to be asked for, and not by the name of a format that is not written. */
+export function theOutput(command: string, values: Values): string {
+  const output = values.output;
+  if (typeof output !== 'string' || output === '') {
+    throw usageError(`"handlebody ${command}" needs to know where to write.`, 'Add -o and the name of a .glb file.');
+  }
+  const other = /\.(obj|ply|gltf|stl|fbx|usdz|json)$/i.exec(output);
+  if (other) throw usageError(`"${output}" would not be what its name says: GLB is written.`, 'Let its name end in .glb.');
+  return output;
+}
+
+/** A positive whole number, or undefined where the option is not given. */
+export function count(values: Values, name: string): number | undefined {
+  const value = values[name];
+  if (value === undefined) return undefined;
+  const number = Number(value);
+  if (typeof value === 'string' && /^\d+$/.test(value) && number >= 1 && number <= 0xffff_ffff) return number;
+  throw usageError(`--${name} is "${value}".`, 'Give a positive whole number.');
+}
+
+/** One of some words, or undefined where the option is not given. */
+export function oneOf<T extends string>(values: Values, name: string, known: readonly T[]): T | undefined {
+  const value = values[name];
+  if (value === undefined || known.includes(value as T)) return value as T | undefined;
+  throw usageError(`--${name} is "${value}".`, `Use one of: ${known.join(', ')}.`);
+}
+
+/** `--at -0.5=…` never occurs, but `--at valence=…` may follow as "--at" "-x=1": Node refuses values that begin with a dash. */
+function joinNegative(args: readonly string[]): string[] {
+  const out: string[] = [];
+  for (const arg of args) {
+    if (out.at(-1) === '--at' && arg.startsWith('-') && arg.includes('=')) out[out.length - 1] = `--at=${arg}`;
+    else out.push(arg);
+  }
+  return out;
+}

@@ -1,0 +1,88 @@
+import { load } from '../../wasm/ts/index.ts';
+import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
+import { attachBody, readMesh } from '../assets/index.ts';
+import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
+import { prepareOutput, readInput, writeOutput } from './files.ts';
+import { modelBytes, readModel } from './model.ts';
+import type { Run } from './run.ts';
+
+const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
+const PACKINGS = ['skeleton', 'tree'] as const;
+
+export const BAKE_OPTIONS: Options = {
+  ...WRITES,
+  centers: { type: 'string' },
+  distance: { type: 'string' },
+  resolution: { type: 'string' },
+  spheres: { type: 'string' },
+  'max-spheres': { type: 'string' },
+};
+
+/** `handlebody bake`: a model with its interior distances in it. */
+export async function bakeCommand({ values, words, report, signal, clock }: Run): Promise<void> {
+  const input = theFile('bake', words, 'a model: a .glb, .obj or .ply file');
+  const options = bakeOptions(values);
+  const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
+
+  const { document, format } = await readModel(await readInput(input), input, report);
+  const { mesh } = readMesh(document);
+  clock.lap('read');
+  const hb = await load({ signal });
+  const body = await hb.bake(mesh, {
+    ...options,
+    signal,
+    onProgress: report.progress('baking'),
+    onWarning: (warning) => report.warn(warning),
+  });
+  clock.lap('bake');
+  attachBody(document, body);
+  const bytes = await modelBytes(document);
+  signal.throwIfAborted();
+  writeOutput(output, bytes);
+  clock.lap('write');
+
+  const [vertices, triangles] = [mesh.positions.length / 3, mesh.triangles.length / 3];
+  const summary = { ...describeBody(body), ...(options.packing && { packing: options.packing }) };
+  report.result(
+    {
+      command: 'bake',
+      input,
+      format,
+      output: output.name,
+      bytes: bytes.length,
+      vertices,
+      triangles,
+      ...summary,
+      timings: clock.laps(),
+    },
+    [
+      `${output.name}: ${vertices} vertices, ${triangles} triangles, ${summary.centers} centers, ${summary.spheres} spheres, ` +
+        `${summary.voxels} voxels (${summary.distance}), ${(bytes.length / 1e6).toFixed(2)} MB, ${(clock.total() / 1000).toFixed(1)} s`,
+    ],
+  );
+}
+
+function bakeOptions(values: Values) {
+  const entries = {
+    centers: count(values, 'centers'),
+    distance: oneOf(values, 'distance', METHODS),
+    resolution: count(values, 'resolution'),
+    spheres: count(values, 'max-spheres'),
+    packing: oneOf(values, 'spheres', PACKINGS),
+  };
+  return Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined)) as {
+    [K in keyof typeof entries]?: NonNullable<(typeof entries)[K]>;
+  };
+}
+
+/** What a body is made of, in numbers. Lengths in the model's units. */
+export function describeBody({ centers, spheres, voxels, grid, normalization, distance, version }: BodyData) {
+  return {
+    version,
+    centers: centers.length,
+    spheres: spheres.length / 4,
+    voxels: voxels.length,
+    grid: { dimensions: grid.dimensions, spacing: grid.spacing * normalization.diagonal },
+    distance,
+  };
+}

@@ -1,0 +1,95 @@
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { load } from '../../wasm/ts/index.ts';
+import { detachBody, readBody, readMesh } from '../assets/index.ts';
+import { type Options, theFile, theOutput, usageError, WRITES } from './arguments.ts';
+import { prepareOutput, readInput, writeOutput } from './files.ts';
+import { parseHandles } from './handles.ts';
+import { modelBytes, naming, readModel } from './model.ts';
+import type { Run } from './run.ts';
+import { sceneNormals, writeShape } from './write-shape.ts';
+
+export const DEFORM_OPTIONS: Options = { ...WRITES, handles: { type: 'string' } };
+
+/** From rest, once: as many as it takes. */
+const MAX_ITERATIONS = 1000;
+
+/** `handlebody deform`: a baked model, bent by handles. */
+export async function deformCommand({ values, words, report, signal, clock }: Run): Promise<void> {
+  const input = theFile('deform', words, 'a baked model, as "handlebody bake" writes it');
+  const handlesName = values.handles;
+  if (typeof handlesName !== 'string' || handlesName === '')
+    throw usageError(
+      '"handlebody deform" needs handles.',
+      'Add --handles and the name of a JSON file; "handlebody deform --help" shows one.',
+    );
+  const output = prepareOutput(theOutput('deform', values), { inputs: [input, handlesName], force: values.force === true });
+
+  const { document } = await readModel(await readInput(input), input, report);
+  const { ranges } = readMesh(document);
+  const body = readBody(document);
+  if (!body) {
+    throw new HandlebodyError('body-missing', {
+      message: `"${input}" is not baked: it carries no interior distances.`,
+      remedy: `Bake it first: handlebody bake ${JSON.stringify(input)} -o BODY.glb`,
+    });
+  }
+  const vertexCount = body.mesh.positions.length / 3;
+  const { handles, targets, options } = await readHandles(handlesName, vertexCount);
+  clock.lap('read');
+
+  const hb = await load({ signal });
+  const irbf = hb.irbf(body, options);
+  irbf.setHandles(handles);
+  clock.lap('prepare');
+  irbf.targets.set(targets);
+  irbf.solve({ maxIterations: MAX_ITERATIONS });
+  clock.lap('solve');
+  const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3) };
+  const restNormals = sceneNormals(ranges);
+  if (restNormals) irbf.setRestNormals(restNormals);
+  irbf.deform(shape.positions, restNormals && shape.normals);
+  clock.lap('deform');
+  const quality = irbf.report();
+  if (!quality.converged) {
+    report.warn({
+      code: 'not-converged',
+      message: `The solver did not come to rest within ${MAX_ITERATIONS} iterations.`,
+      remedy: 'The targets may pull against each other: move them closer to rest, or use fewer.',
+    });
+  }
+
+  for (const note of writeShape(document, ranges, shape)) report.note(note);
+  detachBody(document);
+  report.note(
+    'The output carries no interior distances, which are those of the shape at rest: bake it again to deform it further.',
+  );
+  const bytes = await modelBytes(document);
+  signal.throwIfAborted();
+  writeOutput(output, bytes);
+  clock.lap('write');
+
+  const counts = {
+    vertices: vertexCount,
+    triangles: body.mesh.triangles.length / 3,
+    handles: handles.length,
+    centers: body.centers.length,
+    spheres: body.spheres.length / 4,
+  };
+  const percent = (part: number) => `${(part * 100).toFixed(2)}%`;
+  report.result(
+    { command: 'deform', input, output: output.name, bytes: bytes.length, ...counts, ...quality, timings: clock.laps() },
+    [
+      `${output.name}: ${counts.vertices} vertices, ${counts.handles} handles, ${quality.iterations} iterations, ` +
+        `volume ${percent(quality.volumeRatio)}, ${quality.flips} flipped tetrahedra, ${(clock.total() / 1000).toFixed(1)} s`,
+    ],
+  );
+}
+
+async function readHandles(name: string, vertexCount: number) {
+  const bytes = await readInput(name);
+  try {
+    return parseHandles(bytes, { vertexCount });
+  } catch (error) {
+    throw naming(name, error);
+  }
+}

@@ -1,0 +1,125 @@
+/** Reading inputs whole and writing outputs whole or not at all. */
+import { randomUUID } from 'node:crypto';
+import {
+  accessSync,
+  closeSync,
+  constants,
+  fchmodSync,
+  fsyncSync,
+  openSync,
+  realpathSync,
+  renameSync,
+  rmSync,
+  type Stats,
+  statSync,
+  writeFileSync,
+  writeSync,
+} from 'node:fs';
+import { readFile } from 'node:fs/promises';
+import path from 'node:path';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { usageError } from './arguments.ts';
+
+/** Throws 'file-unreadable'. */
+export async function readInput(file: string): Promise<Uint8Array> {
+  try {
+    return await readFile(file);
+  } catch (cause) {
+    throw new HandlebodyError('file-unreadable', {
+      message: `"${file}" cannot be read: ${reason(cause)}.`,
+      remedy: 'Check its name, and that you may read it.',
+      cause,
+    });
+  }
+}
+
+/** A place to write to, looked at before the work begins. */
+export interface Output {
+  readonly name: string;
+  /** Where symbolic links lead. */
+  readonly file: string;
+  readonly before: Stats | undefined;
+}
+
+/**
+ * Checks that an output can be written: its folder is there, and it is none of the inputs unless `force` says so. An older output is
+ * replaced. Throws 'usage' or 'output-unwritable'.
+ */
+export function prepareOutput(name: string, { inputs, force }: { inputs: readonly string[]; force: boolean }): Output {
+  const before = statSync(name, { throwIfNoEntry: false, bigint: false });
+  const input = before && inputs.find((other) => isSame(before, statSync(other, { throwIfNoEntry: false })));
+  if (input !== undefined && !force) {
+    throw usageError(
+      `The output "${name}" is the input "${input}" itself.`,
+      'Give another name after -o, or add --force to replace it.',
+    );
+  }
+  if (before?.isDirectory()) throw unwritable(name, 'it is a folder');
+  try {
+    const file = before ? realpathSync(name) : path.resolve(name);
+    accessSync(before && !before.isFile() ? file : path.dirname(file), constants.W_OK);
+    return { name, file, before };
+  } catch (cause) {
+    throw unwritable(name, reason(cause), cause);
+  }
+}
+
+/**
+ * Writes an output: to a file beside it, which then takes its name. Nothing else runs in between, so that a signal finds either the old
+ * file or the new one. Throws 'output-unwritable'.
+ */
+export function writeOutput({ name, file, before }: Output, bytes: Uint8Array): void {
+  // A device or a pipe has no name to take.
+  if (before && !before.isFile()) {
+    try {
+      writeFileSync(file, bytes);
+      return;
+    } catch (cause) {
+      throw unwritable(name, reason(cause), cause);
+    }
+  }
+  const temporary = path.join(path.dirname(file), `.${path.basename(file)}.${randomUUID()}.tmp`);
+  try {
+    const descriptor = openSync(temporary, 'wx');
+    try {
+      if (before) fchmodSync(descriptor, before.mode & 0o777);
+      for (let at = 0; at < bytes.length; ) at += writeSync(descriptor, bytes, at);
+      fsyncSync(descriptor);
+    } finally {
+      closeSync(descriptor);
+    }
+    renameSync(temporary, file);
+  } catch (cause) {
+    rmSync(temporary, { force: true });
+    throw unwritable(name, reason(cause), cause);
+  }
+}
+
+function isSame(a: Stats, b: Stats | undefined): boolean {
+  return b !== undefined && a.dev === b.dev && a.ino === b.ino;
+}
+
+function unwritable(name: string, why: string, cause?: unknown): HandlebodyError {
+  return new HandlebodyError('output-unwritable', {
+    message: `"${name}" cannot be written: ${why}.`,
+    remedy: 'Give another place after -o: a folder that is there and that you may write to.',
+    cause,
+  });
+}
+
+/** The system's own words for what people meet, the error's otherwise. */
+function reason(cause: unknown): string {
+  const { code, message } = cause as NodeJS.ErrnoException;
+  const known: Record<string, string> = {
+    ENOENT: 'there is no such file or folder',
+    ENOTDIR: 'a part of its path is no folder',
+    EISDIR: 'it is a folder',
+    EACCES: 'permission is denied',
+    EPERM: 'permission is denied',
+    EROFS: 'its file system is read-only',
+    ENOSPC: 'the disk is full',
+    EFBIG: 'it is too large',
+    ERR_FS_FILE_TOO_LARGE: 'it has more than 2 GiB',
+  };
+  return known[code ?? ''] ?? message;
+}

@@ -1,0 +1,120 @@
+/**
+ * HANDLES.json, in the model's own units:
+ *
+ *   { "handles": [{ "vertex": 120 } or { "at": [x,y,z] }, with "to": [x,y,z], "rotation"?: [x,y,z,w], "scale"?: [x,y,z] }],
+ *     "relativeWidth"?: number, "smoothness"?: number or "auto" }
+ *
+ * Every word of it is checked: one that is misspelt would otherwise be silently without effect.
+ */
+import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { Handle, Vec3 } from '../../wasm/ts/types.ts';
+
+export interface HandlesFile {
+  readonly handles: readonly Handle[];
+  /** 10 numbers a handle, as `Irbf.targets` takes them. */
+  readonly targets: Float64Array;
+  readonly options: { readonly relativeWidth?: number; readonly smoothness?: number | 'auto' };
+}
+
+const TOP = ['handles', 'relativeWidth', 'smoothness'];
+const KEYS = ['vertex', 'at', 'to', 'rotation', 'scale'];
+
+/** Throws 'file-invalid' for what is no JSON, 'handles-invalid', 'handle-*' or 'target-not-finite' naming the handle. */
+export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: number }): HandlesFile {
+  const file = parseJson(bytes);
+  if (!isObject(file)) throw invalid('should be an object: { "handles": [...] }.');
+  const stray = Object.keys(file).find((key) => !TOP.includes(key));
+  if (stray !== undefined) throw invalid(`has an unknown key ${JSON.stringify(stray)}.`, TOP);
+  if (!Array.isArray(file.handles) || file.handles.length === 0) throw invalid('has no list of handles, or an empty one.', TOP);
+
+  const targets = new Float64Array(file.handles.length * 10);
+  const handles = file.handles.map((entry: unknown, index): Handle => {
+    const { handle, target } = parseHandle(entry, index, vertexCount);
+    targets.set(target, index * 10);
+    return handle;
+  });
+  const { relativeWidth, smoothness } = file;
+  if (relativeWidth !== undefined && !(isNumber(relativeWidth) && relativeWidth > 0))
+    throw invalid(`has the relativeWidth ${JSON.stringify(relativeWidth)}, which should be a number above 0.`);
+  if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness >= 0))
+    throw invalid(`has the smoothness ${JSON.stringify(smoothness)}, which should be a number from 0 on, or "auto".`);
+  const options = { ...(relativeWidth !== undefined && { relativeWidth }), ...(smoothness !== undefined && { smoothness }) };
+  return { handles, targets, options: options as HandlesFile['options'] };
+}
+
+function parseHandle(entry: unknown, index: number, vertexCount: number): { handle: Handle; target: number[] } {
+  const fail = (what: string, { code = 'handles-invalid', remedy }: { code?: ErrorCode; remedy?: string } = {}) =>
+    new HandlebodyError(code, {
+      message: `Handle ${index} ${what}.`,
+      remedy: remedy ?? `A handle has "vertex" or "at", and "to"; it may have "rotation" and "scale".`,
+      culprit: { kind: 'handle', index },
+    });
+  if (!isObject(entry)) throw fail('is no object');
+  const stray = Object.keys(entry).find((key) => !KEYS.includes(key));
+  if (stray !== undefined) throw fail(`has an unknown key ${JSON.stringify(stray)}`);
+
+  const numbers = (key: string, length: number, code: ErrorCode): number[] => {
+    const value = entry[key];
+    if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number'))
+      throw fail(`has no ${length} numbers in "${key}"`);
+    if (!value.every(Number.isFinite))
+      throw fail(`has a number in "${key}" that is too large`, { code, remedy: 'Give finite numbers.' });
+    return value as number[];
+  };
+  const place = (): { vertex: number } | { at: Vec3 } => {
+    if ('vertex' in entry === 'at' in entry)
+      throw fail(
+        `has ${'at' in entry ? 'both' : 'neither'} "vertex" and "at"`.replace('neither "vertex" and', 'neither "vertex" nor'),
+      );
+    if ('at' in entry) return { at: numbers('at', 3, 'handle-not-finite') as unknown as Vec3 };
+    const vertex = entry.vertex;
+    if (!Number.isInteger(vertex)) throw fail(`has the vertex ${JSON.stringify(vertex)}, which should be a whole number`);
+    if ((vertex as number) >= 0 && (vertex as number) < vertexCount) return { vertex: vertex as number };
+    throw fail(`sits on vertex ${vertex}, and the model has ${vertexCount} vertices`, {
+      code: 'handle-out-of-range',
+      remedy: `Use a vertex number from 0 to ${vertexCount - 1}.`,
+    });
+  };
+  const where = place();
+  if (!('to' in entry)) throw fail('does not say where it goes: "to" is missing');
+  const to = numbers('to', 3, 'target-not-finite');
+  const rotation = 'rotation' in entry ? numbers('rotation', 4, 'target-not-finite') : [0, 0, 0, 1];
+  const scale = 'scale' in entry ? numbers('scale', 3, 'target-not-finite') : [1, 1, 1];
+  const length = Math.hypot(...rotation);
+  if (!(length > 0 && length < Number.POSITIVE_INFINITY))
+    throw fail('has a rotation of no length', { remedy: 'Give a quaternion x, y, z, w; no rotation is [0, 0, 0, 1].' });
+  const turns = 'rotation' in entry || 'scale' in entry;
+  return {
+    handle: turns ? { ...where, kind: 'rotation' } : where,
+    target: [...to, ...rotation.map((x) => x / length), ...scale],
+  };
+}
+
+function parseJson(bytes: Uint8Array): unknown {
+  let text: string;
+  try {
+    text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+    return JSON.parse(text);
+  } catch (cause) {
+    throw new HandlebodyError('file-invalid', {
+      message: `It is no JSON: ${cause instanceof Error ? cause.message : String(cause)}.`,
+      remedy: 'Repair it: { "handles": [{ "vertex": 0, "to": [0, 0, 0] }] } is such a file. JSON knows no NaN and no comments.',
+      cause,
+    });
+  }
+}
+
+function invalid(what: string, known?: readonly string[]): HandlebodyError {
+  return new HandlebodyError('handles-invalid', {
+    message: `It ${what}`,
+    remedy: known ? `It may have: ${known.join(', ')}.` : 'See "handlebody deform --help".',
+  });
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+function isNumber(value: unknown): value is number {
+  return typeof value === 'number' && Number.isFinite(value);
+}

@@ -1,0 +1,94 @@
+/** What `--help` prints. The README says the same in more words. */
+
+const EXIT_CODES = `Exit codes
+  0  done
+  1  a defect of the command, or no WebAssembly
+  2  arguments that cannot be meant
+  3  an input file that cannot be read, or is not what its format asks for
+  4  content that is refused: a mesh, a handle, a body that does not fit
+  5  an output file that cannot be written
+  130  interrupted
+
+An error says what is wrong, what to do about it and its stable code on standard error; with --json it is { "error": { code, message,
+remedy, culprit? } } on standard output. Progress and warnings go to standard error. Output is written whole or not at all, and the
+same input gives the same bytes.`;
+
+const WRITING = `  -o, --output FILE    where to write; an older file is replaced, the input itself only with --force
+  -f, --force          let the output replace an input`;
+
+const COMMON = `  --json               print one JSON object on standard output
+  -q, --quiet          no progress, no warnings, no summary: errors only
+  -h, --help           this text`;
+
+export const HELP: Record<string, string> = {
+  '': `Deforms shapes by scattered interpolation.
+
+  handlebody bake MODEL.(glb|obj|ply) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
+  handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb [--json]
+  handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb [--json]
+  handlebody inspect FILE [--json]
+
+  handlebody COMMAND --help tells more of each; --version prints the version.
+
+${EXIT_CODES}`,
+
+  bake: `Computes a model's interior distances and writes it with them: once, whatever handles it gets later.
+
+  handlebody bake MODEL.(glb|obj|ply) -o BODY.glb
+
+  --centers N          how many centers the deformation may bend at (200)
+  --distance METHOD    fast-marching (the default), heat, mean-value or euclidean
+  --resolution N       voxels along the longest side, 8 to 512 (96)
+  --spheres PACKING    how spheres fill the volume: skeleton (the default) or tree
+  --max-spheres N      at most so many spheres (120)
+${WRITING}
+${COMMON}
+
+Vertices keep their order and number, and a GLB its materials, UVs, skins and morph targets. Bake last: what moves or reorders vertices
+afterwards makes the distances worthless, and is found out.
+
+${EXIT_CODES}`,
+
+  deform: `Bends a baked model by handles.
+
+  handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb
+
+  --handles FILE       which points are held, and where they go
+${WRITING}
+${COMMON}
+
+HANDLES.json, in the model's own units after its nodes' transforms:
+
+  { "handles": [
+      { "vertex": 120, "to": [0.1, 0.6, 0] },
+      { "at": [0, 0.5, 0], "to": [0, 0.5, 0], "rotation": [0, 0, 0.383, 0.924], "scale": [1, 1, 1] }
+    ],
+    "relativeWidth": 2, "smoothness": "auto" }
+
+A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ and PLY, in the order of the file) or at
+any point inside, and goes to "to". "rotation" (a quaternion x, y, z, w) and "scale" are kept free where neither is given. The output is
+no longer the shape that was baked, and carries no interior distances. A skinned model's rest shape is deformed, before skinning.
+
+${EXIT_CODES}`,
+
+  pose: `Sets the morph targets of a model to a place in its pose space.
+
+  handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb
+
+  --at NAME=X,…        one number for every dimension; "handlebody inspect" lists them
+  --mesh NAME          which mesh, where several have a pose space
+${WRITING}
+${COMMON}
+
+With --json, "weights" are those of the examples and "targets" those of the morph targets.
+
+${EXIT_CODES}`,
+
+  inspect: `Tells what is in a model: its surface, its baked body, its pose spaces. Any GLB, OBJ or PLY will do.
+
+  handlebody inspect FILE
+
+${COMMON}
+
+${EXIT_CODES}`,
+};

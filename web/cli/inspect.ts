@@ -1,0 +1,152 @@
+import type { Document } from '@gltf-transform/core';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { Mesh } from '../../wasm/ts/types.ts';
+import { type BodyProperty, HANDLEBODY_BODY, readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
+import { theFile } from './arguments.ts';
+import { describeBody } from './bake.ts';
+import { countComponents } from './components.ts';
+import { readInput } from './files.ts';
+import { readModel } from './model.ts';
+import type { Report } from './report.ts';
+import type { Run } from './run.ts';
+
+/** `handlebody inspect`: what is in a file. */
+export async function inspectCommand({ words, report }: Run): Promise<void> {
+  const file = theFile('inspect', words, 'a file to look at');
+  const bytes = await readInput(file);
+  const { document, format } = await readModel(bytes, file, report);
+  const surface = describeSurface(document);
+  const body = describeBodyOf(document, report);
+  const poseSpaces = describePoseSpaces(document, report);
+  const facts = { file, format, bytes: bytes.length, ...surface, body, poseSpaces };
+  report.result({ command: 'inspect', ...facts }, table(facts));
+}
+
+function describeSurface(document: Document) {
+  const root = document.getRoot();
+  const mesh = meshOf(document);
+  const primitives = root.listMeshes().flatMap((each) => each.listPrimitives());
+  const used = root.listExtensionsUsed().map(({ extensionName }) => extensionName);
+  return {
+    vertices: mesh.positions.length / 3,
+    triangles: mesh.triangles.length / 3,
+    components: countComponents(mesh.positions, mesh.triangles),
+    bounds: boundsOf(mesh.positions),
+    nodes: root.listNodes().length,
+    meshes: root.listMeshes().map((each) => each.getName()),
+    materials: root.listMaterials().map((each) => each.getName()),
+    textures: root.listTextures().length,
+    skins: root.listSkins().length,
+    animations: root.listAnimations().map((each) => each.getName()),
+    morphTargets: Math.max(0, ...primitives.map((primitive) => primitive.listTargets().length)),
+    extensions: used,
+  };
+}
+
+/** A scene without triangles is a mesh of none. */
+function meshOf(document: Document): Mesh {
+  try {
+    return readMesh(document).mesh;
+  } catch (error) {
+    if (!(error instanceof HandlebodyError) || error.code !== 'mesh-no-triangles') throw error;
+    return { positions: new Float32Array(), triangles: new Uint32Array() };
+  }
+}
+
+function boundsOf(positions: Float32Array | Float64Array): { low: number[]; high: number[] } | undefined {
+  if (positions.length === 0) return undefined;
+  const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
+  for (let i = 0; i < positions.length; i++) {
+    const [axis, x] = [i % 3, positions[i] as number];
+    low[axis] = Math.min(low[axis] as number, x);
+    high[axis] = Math.max(high[axis] as number, x);
+  }
+  return { low, high };
+}
+
+/** A body that does not fit, or is damaged, is described as far as it goes, with what is wrong with it. */
+function describeBodyOf(document: Document, report: Report) {
+  const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
+  if (!property) return undefined;
+  try {
+    const body = readBody(document);
+    return body && { ...describeBody(body), distances: body.distances.byteLength, matches: true };
+  } catch (error) {
+    if (!(error instanceof HandlebodyError)) throw error;
+    const { code, message, remedy } = error;
+    report.warn({ code, message, remedy });
+    return { version: property.getHeader().version, matches: false, error: code };
+  }
+}
+
+function describePoseSpaces(document: Document, report: Report) {
+  try {
+    return readPoseSpaces(document).map(({ mesh, dimensions, examples, version }) => ({
+      mesh: mesh.getName(),
+      version,
+      targets: examples[0]?.weights.length ?? 0,
+      dimensions,
+      examples: examples.map(({ name, at }) => ({ name, at })),
+    }));
+  } catch (error) {
+    if (!(error instanceof HandlebodyError)) throw error;
+    const { code, message, remedy } = error;
+    report.warn({ code, message, remedy });
+    return [];
+  }
+}
+
+type Facts = { file: string; format: string; bytes: number } & ReturnType<typeof describeSurface> & {
+    body: ReturnType<typeof describeBodyOf>;
+    poseSpaces: ReturnType<typeof describePoseSpaces>;
+  };
+
+/** The facts as lines for people: two columns, only what is there. */
+function table(facts: Facts): string[] {
+  const { bounds, body } = facts;
+  const size = bounds?.high.map((high, axis) => short(high - (bounds.low[axis] ?? 0))).join(' × ');
+  const rows: [string, string | number | undefined][] = [
+    ['file', `${facts.file} (${facts.format}, ${megabytes(facts.bytes)})`],
+    ['vertices', facts.vertices],
+    ['triangles', facts.triangles],
+    ['components', facts.components],
+    ['size', size],
+    ['meshes', named(facts.meshes)],
+    ['materials', named(facts.materials)],
+    ['textures', facts.textures || undefined],
+    ['skins', facts.skins || undefined],
+    ['animations', named(facts.animations)],
+    ['morph targets', facts.morphTargets || undefined],
+    ['extensions', facts.extensions.join(', ') || undefined],
+    ['body', body ? `format version ${body.version}` : 'none: not baked'],
+  ];
+  if (body && 'centers' in body) {
+    rows.push(
+      ['  for this shape', 'yes'],
+      ['  centers', body.centers],
+      ['  spheres', body.spheres],
+      ['  voxels', `${body.voxels} of ${body.grid.dimensions.join(' × ')}, ${short(body.grid.spacing)} apart`],
+      ['  distances', `${body.distance}, ${megabytes(body.distances)} unpacked`],
+    );
+  } else if (body) rows.push(['  for this shape', `no (${body.error})`]);
+  for (const { mesh, dimensions, examples, targets } of facts.poseSpaces) {
+    rows.push(['pose space', `of mesh "${mesh}", ${targets} morph targets`]);
+    for (const { name, min, max } of dimensions) rows.push([`  ${name}`, `${min} … ${max}`]);
+    rows.push(['  examples', `${examples.length}`]);
+    for (const { name, at } of examples) rows.push([`    ${name}`, at.map(short).join(', ')]);
+  }
+  const shown = rows.filter(([, value]) => value !== undefined);
+  const width = Math.max(...shown.map(([name]) => name.length)) + 2;
+  return shown.map(([name, value]) => `${name.padEnd(width)}${value}`);
+}
+
+/** How many, and the first few names. */
+function named(names: readonly string[]): string | undefined {
+  if (names.length === 0) return undefined;
+  const [some, more] = [names.filter((name) => name !== '').slice(0, 6), names.length > 6 ? ' …' : ''];
+  return some.length === 0 ? `${names.length}` : `${names.length}: ${some.join(', ')}${more}`;
+}
+
+const short = (x: number) => `${Number(x.toPrecision(4))}`;
+
+const megabytes = (bytes: number) => (bytes < 1e5 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(2)} MB`);

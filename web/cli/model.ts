@@ -1,0 +1,117 @@
+/** Models of any format that the command reads, as glTF documents, and how they are written. */
+import { readFileSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { Document, type Extension } from '@gltf-transform/core';
+import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { checkGlb } from '../assets/check-glb.ts';
+import { type FileMesh, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, readGlb, readObj, readPly, writeGlb } from '../assets/index.ts';
+import { areaNormals } from './area-normals.ts';
+import type { Report } from './report.ts';
+
+/** Those whose data glTF-Transform cannot read without a decoder. */
+const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
+
+/** Extensions that pass through unharmed. */
+const EXTENSIONS = (ALL_EXTENSIONS as (typeof Extension)[]).filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME));
+
+export type ModelFormat = 'GLB' | 'OBJ' | 'PLY';
+
+export interface Model {
+  readonly document: Document;
+  readonly format: ModelFormat;
+}
+
+/** By its first bytes, or by its name for OBJ, which has no mark. */
+function formatOf(bytes: Uint8Array, name: string): ModelFormat {
+  const head = String.fromCharCode(...bytes.subarray(0, 4));
+  if (head === 'glTF') return 'GLB';
+  if (/^ply[\r\n]/.test(head)) return 'PLY';
+  return /\.obj$/i.test(name) ? 'OBJ' : /\.ply$/i.test(name) ? 'PLY' : 'GLB';
+}
+
+/** Reads a model; what it has that will not be written again is warned of. Throws 'file-*' errors that name the file. */
+export async function readModel(bytes: Uint8Array, name: string, report: Report): Promise<Model> {
+  const format = formatOf(bytes, name);
+  try {
+    if (format !== 'GLB') {
+      const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
+      for (const message of mesh.warnings) report.warn({ code: 'left-out', message });
+      return { document: documentOf(mesh, path.basename(name, path.extname(name))), format };
+    }
+    warnOfLost(bytes, report);
+    const document = await readGlb(bytes, { extensions: EXTENSIONS });
+    joinBuffers(document);
+    return { document, format };
+  } catch (error) {
+    throw naming(name, error);
+  }
+}
+
+/** The document as GLB, byte for byte the same each time. */
+export function modelBytes(document: Document): Promise<Uint8Array> {
+  return writeGlb(document, { extensions: EXTENSIONS });
+}
+
+/** An error of reading a file, with the file's name before it. */
+export function naming(name: string, error: unknown): unknown {
+  if (!(error instanceof HandlebodyError) || error.message.includes(name)) return error;
+  const { code, message, remedy, culprit } = error;
+  return new HandlebodyError(code, { message: `"${name}": ${message}`, remedy, culprit, cause: error });
+}
+
+function warnOfLost(bytes: Uint8Array, report: Report): void {
+  const known = [...EXTENSIONS.map(({ EXTENSION_NAME }) => EXTENSION_NAME), HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE];
+  const used = (checkGlb(bytes).json.extensionsUsed ?? []) as readonly string[];
+  const lost = used.filter((name) => !known.includes(name));
+  if (lost.length === 0) return;
+  report.warn({
+    code: 'extension-lost',
+    message: `What the model says in ${lost.join(', ')} is not known here and gets lost.`,
+    remedy: 'Apply such extensions after baking, if they leave the vertices alone.',
+  });
+}
+
+/** A GLB has one buffer: what other ones hold moves into it. */
+function joinBuffers(document: Document): void {
+  const [first, ...others] = document.getRoot().listBuffers();
+  if (!first || others.length === 0) return;
+  for (const accessor of document.getRoot().listAccessors()) accessor.setBuffer(first);
+  for (const buffer of others) buffer.dispose();
+}
+
+/** One mesh in one node, its vertices as they came. */
+function documentOf(file: FileMesh, name: string): Document {
+  const document = new Document();
+  const buffer = document.createBuffer();
+  const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3', array: Float32Array | Uint16Array | Uint32Array) =>
+    document
+      .createAccessor('', buffer)
+      .setType(type)
+      .setArray(array as Float32Array<ArrayBuffer>);
+  const { positions, triangles, uvs } = file;
+  const primitive = document.createPrimitive().setAttribute('POSITION', accessor('VEC3', positions));
+  if (triangles.length === 0) primitive.setMode(0);
+  else {
+    const normals = file.normals ?? areaNormals(positions, triangles);
+    // 65535 would restart a primitive.
+    const indices = positions.length / 3 <= 65535 ? Uint16Array.from(triangles) : triangles;
+    primitive.setAttribute('NORMAL', accessor('VEC3', normals)).setIndices(accessor('SCALAR', indices));
+  }
+  if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', uvs));
+  const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
+  document.getRoot().setDefaultScene(document.createScene().addChild(node));
+  return document;
+}
+
+/** The version of the package that this file is part of. */
+export function packageVersion(): string {
+  for (let folder = path.dirname(fileURLToPath(import.meta.url)); ; folder = path.dirname(folder)) {
+    try {
+      const { name, version } = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
+      if (name === 'handlebody') return version;
+    } catch {}
+    if (folder === path.dirname(folder)) return 'unknown';
+  }
+}

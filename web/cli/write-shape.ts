@@ -1,0 +1,136 @@
+/** A shape in scene space, written back into the primitives that it came from, each in its own space. */
+import type { Accessor, Document, Mesh, Node, Primitive } from '@gltf-transform/core';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { PrimitiveRange } from '../assets/index.ts';
+import { invertAffine, type Matrix, type Sixteen } from '../assets/transform.ts';
+
+export interface SceneShape {
+  /** n×3, of all ranges together. */
+  readonly positions: Float32Array;
+  /** n×3. Read for primitives that have normals. */
+  readonly normals: Float32Array;
+}
+
+/** Normals of a document in scene space, of unit length; undefined when no primitive has any. Where one has none they point up. */
+export function sceneNormals(ranges: readonly PrimitiveRange[]): Float32Array | undefined {
+  if (!ranges.some(({ primitive }) => primitive.getAttribute('NORMAL'))) return undefined;
+  const end = ranges.at(-1);
+  const normals = new Float32Array(((end?.start ?? 0) + (end?.count ?? 0)) * 3);
+  const element: number[] = [];
+  for (const { primitive, start, count, matrix, node } of ranges) {
+    const stored = primitive.getAttribute('NORMAL');
+    // Normals go by the inverse transposed: a row of the inverse is a column of that.
+    const inverse = stored ? inverseOf(matrix, node) : undefined;
+    for (let i = 0; i < count; i++) {
+      const at = (start + i) * 3;
+      if (!stored || !inverse) {
+        normals[at + 1] = 1;
+        continue;
+      }
+      const [x = 0, y = 0, z = 0] = stored.getElement(i, element);
+      const row = (k: number) => (inverse[k] as number) * x + (inverse[k + 1] as number) * y + (inverse[k + 2] as number) * z;
+      setUnit(normals, at, [row(0), row(4), row(8)]);
+    }
+  }
+  return normals;
+}
+
+/**
+ * Gives every primitive of the ranges its new positions, and normals where it has some. Meshes that hang at several nodes are copied, since
+ * each node's is deformed in its own way. Tangents are taken out: they would be wrong, and viewers make them from normals and UVs.
+ *
+ * Throws 'file-unsupported' naming a node that flattens its mesh, before anything is changed. Returns what people should know.
+ */
+export function writeShape(document: Document, ranges: readonly PrimitiveRange[], shape: SceneShape): string[] {
+  const inverses = ranges.map(({ matrix, node }) => inverseOf(matrix, node));
+  const stored = ranges.map(({ primitive }) => ({
+    POSITION: primitive.getAttribute('POSITION'),
+    NORMAL: primitive.getAttribute('NORMAL'),
+  }));
+  const primitives = unshare(ranges);
+  const notes = new Set<string>();
+  // One accessor serves several primitives where it did before: what is equal at rest, and in the same place, is equal now.
+  const written: { from: Accessor; with: Accessor | null; matrix: string; to: Accessor }[] = [];
+
+  ranges.forEach((range, r) => {
+    const primitive = primitives[r] as Primitive;
+    const before = stored[r] as (typeof stored)[number];
+    const matrix = Array.from(range.matrix).join();
+    for (const attribute of ['POSITION', 'NORMAL'] as const) {
+      const from = before[attribute];
+      if (!from) continue;
+      const twin = written.find((w) => w.from === from && w.with === before.POSITION && w.matrix === matrix);
+      const make = () => {
+        const inverse = inverses[r] as Sixteen;
+        const array = attribute === 'POSITION' ? positionsOf(range, shape.positions, inverse) : normalsOf(range, shape.normals);
+        return document.createAccessor(from.getName(), from.getBuffer()).setType('VEC3').setArray(array);
+      };
+      const to = twin?.to ?? make();
+      if (!twin) written.push({ from, with: before.POSITION, matrix, to });
+      primitive.setAttribute(attribute, to);
+    }
+    if (primitive.getAttribute('TANGENT')) {
+      primitive.setAttribute('TANGENT', null);
+      notes.add('Tangents were taken out; viewers make new ones.');
+    }
+    if (primitive.listTargets().length > 0) notes.add('Morph targets keep their displacements, unturned.');
+  });
+  // What nothing uses any more would be written all the same.
+  for (const { from } of written)
+    if (!from.isDisposed() && from.listParents().every((parent) => parent === document.getRoot())) from.dispose();
+  return [...notes];
+}
+
+/** One primitive a range that no other node uses: a mesh with several users is copied for each but the last. */
+function unshare(ranges: readonly PrimitiveRange[]): Primitive[] {
+  const copies = new Map<Node, { from: Mesh; to: Mesh }>();
+  for (const node of new Set(ranges.map((range) => range.node))) {
+    const mesh = node.getMesh() as Mesh;
+    if (mesh.listParents().filter((parent) => parent.propertyType === 'Node').length < 2) continue;
+    const copy = mesh.clone();
+    for (const primitive of copy.listPrimitives()) copy.removePrimitive(primitive);
+    for (const primitive of mesh.listPrimitives()) copy.addPrimitive(primitive.clone());
+    node.setMesh(copy);
+    copies.set(node, { from: mesh, to: copy });
+  }
+  return ranges.map(({ node, primitive }) => {
+    const copy = copies.get(node);
+    return copy ? (copy.to.listPrimitives()[copy.from.listPrimitives().indexOf(primitive)] as Primitive) : primitive;
+  });
+}
+
+function positionsOf({ start, count }: PrimitiveRange, scene: Float32Array, m: Sixteen): Float32Array<ArrayBuffer> {
+  const out = new Float32Array(count * 3);
+  for (let i = 0; i < out.length; i += 3) {
+    const [x, y, z] = [scene[start * 3 + i] as number, scene[start * 3 + i + 1] as number, scene[start * 3 + i + 2] as number];
+    for (let axis = 0; axis < 3; axis++)
+      out[i + axis] =
+        (m[axis] as number) * x + (m[4 + axis] as number) * y + (m[8 + axis] as number) * z + (m[12 + axis] as number);
+  }
+  return out;
+}
+
+function normalsOf({ start, count, matrix: m }: PrimitiveRange, scene: Float32Array): Float32Array<ArrayBuffer> {
+  const out = new Float32Array(count * 3);
+  for (let i = 0; i < out.length; i += 3) {
+    const [x, y, z] = [scene[start * 3 + i] as number, scene[start * 3 + i + 1] as number, scene[start * 3 + i + 2] as number];
+    const column = (k: number) => (m[k] as number) * x + (m[k + 1] as number) * y + (m[k + 2] as number) * z;
+    setUnit(out, i, [column(0), column(4), column(8)]);
+  }
+  return out;
+}
+
+function setUnit(out: Float32Array, at: number, [x, y, z]: [number, number, number]): void {
+  const length = Math.hypot(x, y, z);
+  if (length > 0) out.set([x / length, y / length, z / length], at);
+  else out.set([0, 1, 0], at);
+}
+
+function inverseOf(matrix: Matrix, node: Node): Sixteen {
+  const inverse = invertAffine(matrix);
+  if (inverse) return inverse;
+  throw new HandlebodyError('file-unsupported', {
+    message: `The node "${node.getName()}" flattens its mesh (a scale of 0), so that what was deformed cannot be brought back into it.`,
+    remedy: 'Give the node a scale other than 0, or apply its transform to the mesh.',
+  });
+}
