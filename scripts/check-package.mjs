@@ -1,11 +1,11 @@
 // What npm would publish, checked as its users meet it: publint, size, and the packed tarball installed into a project of its own,
 // where a program runs and TypeScript reads the declarations.
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { ensureInstalled, npm } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
-import { mustRun, runMain } from './lib/run.mjs';
+import { capture, mustRun, runMain } from './lib/run.mjs';
 
 /** Both entries load, and a refused mesh gives a typed error with a remedy. */
 const SMOKE = `
@@ -24,6 +24,44 @@ for (const start of [load, loadExternal]) {
 }
 console.log('the packed library loads and answers in Node ' + process.versions.node);
 `;
+
+/** What the command is tried on: a box, eight vertices and six faces. */
+const BOX = `${[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${i & 1} ${(i >> 1) & 1} ${i >> 2}`).join('\n')}
+f 1 3 4 2
+f 5 6 8 7
+f 1 2 6 5
+f 3 7 8 4
+f 1 5 7 3
+f 2 4 8 6
+`;
+
+/**
+ * Runs the installed command as npx does: it bakes a box, bends it, and ends with its documented status when it cannot.
+ * @param {string} folder
+ */
+function tryCommand(folder) {
+  writeFileSync(path.join(folder, 'box.obj'), BOX);
+  const handles = [
+    { vertex: 0, to: [0, 0, 0] },
+    { vertex: 1, to: [1, 0, 0] },
+    { vertex: 7, to: [1.2, 1, 1] },
+  ];
+  writeFileSync(path.join(folder, 'handles.json'), JSON.stringify({ handles }));
+  const handlebody = (/** @type {string[]} */ ...args) =>
+    capture('npx', ['--no-install', 'handlebody', ...args], { cwd: folder, shell: process.platform === 'win32' });
+  const expect = (/** @type {number} */ status, /** @type {string[]} */ ...args) => {
+    const result = handlebody(...args);
+    if (result.status !== status) throw new Error(`handlebody ${args.join(' ')} ended with ${result.status}:\n${result.stderr}`);
+    return result.stdout;
+  };
+  const { version } = JSON.parse(readFileSync(at('package.json'), 'utf8'));
+  if (expect(0, '--version').trim() !== version) throw new Error('the installed command is of another version');
+  expect(0, 'bake', 'box.obj', '-o', 'box.glb', '--resolution', '24', '--centers', '8');
+  if (JSON.parse(expect(0, 'inspect', 'box.glb', '--json')).body?.matches !== true) throw new Error('the box was not baked');
+  expect(0, 'deform', 'box.glb', '--handles', 'handles.json', '-o', 'bent.glb');
+  expect(3, 'bake', 'none.glb', '-o', 'out.glb');
+  console.log('the installed command bakes, inspects, deforms and refuses');
+}
 
 const TYPES = `
 import { type BodyData, load } from 'handlebody';
@@ -61,6 +99,8 @@ await runMain(async () => {
     await npm(['install', '--no-audit', '--no-fund', '--loglevel=error', `./${tarball}`], { cwd: folder });
     writeFileSync(path.join(folder, 'smoke.mjs'), SMOKE);
     await mustRun(process.execPath, ['smoke.mjs'], { cwd: folder });
+    tryCommand(folder);
+    await mustRun(process.execPath, [at('scripts', 'handlebody.mjs'), '--version']);
     writeFileSync(path.join(folder, 'types.ts'), TYPES);
     for (const resolution of /** @type {const} */ (['NodeNext', 'Bundler'])) {
       const config = path.join(folder, `tsconfig.${resolution}.json`);

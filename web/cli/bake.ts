@@ -35,7 +35,7 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
     onWarning: (warning) => report.warn(warning),
   });
   clock.lap('bake');
-  attachBody(document, body);
+  await attachBody(document, body);
   const bytes = await modelBytes(document);
   signal.throwIfAborted();
   writeOutput(output, bytes);

@@ -1,6 +1,6 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { load } from '../../wasm/ts/index.ts';
-import { detachBody, readBody, readMesh } from '../assets/index.ts';
+import { detachBody, HANDLEBODY_BODY, readBody, readMesh } from '../assets/index.ts';
 import { type Options, theFile, theOutput, usageError, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { parseHandles } from './handles.ts';
@@ -26,7 +26,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
 
   const { document } = await readModel(await readInput(input), input, report);
   const { ranges } = readMesh(document);
-  const body = readBody(document);
+  const body = await readBody(document);
   if (!body) {
     throw new HandlebodyError('body-missing', {
       message: `"${input}" is not baked: it carries no interior distances.`,
@@ -60,6 +60,8 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
 
   for (const note of writeShape(document, ranges, shape)) report.note(note);
   detachBody(document);
+  const unused = document.getRoot().listExtensionsUsed();
+  unused.find(({ extensionName }) => extensionName === HANDLEBODY_BODY)?.dispose();
   report.note(
     'The output carries no interior distances, which are those of the shape at rest: bake it again to deform it further.',
   );

@@ -16,7 +16,7 @@ export async function inspectCommand({ words, report }: Run): Promise<void> {
   const bytes = await readInput(file);
   const { document, format } = await readModel(bytes, file, report);
   const surface = describeSurface(document);
-  const body = describeBodyOf(document, report);
+  const body = await describeBodyOf(document, report);
   const poseSpaces = describePoseSpaces(document, report);
   const facts = { file, format, bytes: bytes.length, ...surface, body, poseSpaces };
   report.result({ command: 'inspect', ...facts }, table(facts));
@@ -65,11 +65,11 @@ function boundsOf(positions: Float32Array | Float64Array): { low: number[]; high
 }
 
 /** A body that does not fit, or is damaged, is described as far as it goes, with what is wrong with it. */
-function describeBodyOf(document: Document, report: Report) {
+async function describeBodyOf(document: Document, report: Report) {
   const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
   if (!property) return undefined;
   try {
-    const body = readBody(document);
+    const body = await readBody(document);
     return body && { ...describeBody(body), distances: body.distances.byteLength, matches: true };
   } catch (error) {
     if (!(error instanceof HandlebodyError)) throw error;
@@ -97,7 +97,7 @@ function describePoseSpaces(document: Document, report: Report) {
 }
 
 type Facts = { file: string; format: string; bytes: number } & ReturnType<typeof describeSurface> & {
-    body: ReturnType<typeof describeBodyOf>;
+    body: Awaited<ReturnType<typeof describeBodyOf>>;
     poseSpaces: ReturnType<typeof describePoseSpaces>;
   };
 

@@ -49,7 +49,7 @@ export class Report {
         this.#bar = part < 1;
       } else if (Math.floor(part * 10) > this.#tenths) {
         this.#tenths = Math.floor(part * 10);
-        this.#line(`${what}${percent}%`);
+        this.#line(`${what} ${percent}%`);
       }
     };
   }
