@@ -46,21 +46,21 @@ export interface Output {
  * replaced. Throws 'usage' or 'output-unwritable'.
  */
 export function prepareOutput(name: string, { inputs, force }: { inputs: readonly string[]; force: boolean }): Output {
-  const before = statSync(name, { throwIfNoEntry: false, bigint: false });
-  const input = before && inputs.find((other) => isSame(before, statSync(other, { throwIfNoEntry: false })));
-  if (input !== undefined && !force) {
-    throw usageError(
-      `The output "${name}" is the input "${input}" itself.`,
-      'Give another name after -o, or add --force to replace it.',
-    );
-  }
-  if (before?.isDirectory()) throw unwritable(name, 'it is a folder');
   try {
+    const before = statSync(name, { throwIfNoEntry: false });
+    const input = before && inputs.find((other) => isSame(before, other));
+    if (input !== undefined && !force) {
+      throw usageError(
+        `The output "${name}" is the input "${input}" itself.`,
+        'Give another name after -o, or add --force to replace it.',
+      );
+    }
+    if (before?.isDirectory()) throw unwritable(name, 'it is a folder');
     const file = before ? realpathSync(name) : path.resolve(name);
     accessSync(before && !before.isFile() ? file : path.dirname(file), constants.W_OK);
     return { name, file, before };
   } catch (cause) {
-    throw unwritable(name, reason(cause), cause);
+    throw cause instanceof HandlebodyError ? cause : unwritable(name, reason(cause), cause);
   }
 }
 
@@ -95,8 +95,14 @@ export function writeOutput({ name, file, before }: Output, bytes: Uint8Array): 
   }
 }
 
-function isSame(a: Stats, b: Stats | undefined): boolean {
-  return b !== undefined && a.dev === b.dev && a.ino === b.ino;
+/** An input that cannot be looked at cannot be the output either; reading it says what is wrong. */
+function isSame(a: Stats, file: string): boolean {
+  try {
+    const b = statSync(file);
+    return a.dev === b.dev && a.ino === b.ino;
+  } catch {
+    return false;
+  }
 }
 
 function unwritable(name: string, why: string, cause?: unknown): HandlebodyError {

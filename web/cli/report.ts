@@ -91,9 +91,9 @@ export function sentences({ message, remedy }: { readonly message: string; reado
   return remedy ? `${message} ${remedy}` : message;
 }
 
-/** Names come from files: what would steer a terminal is not written to one. */
+/** Names come from files: what would steer a terminal, or turn its text round, is not written to one. */
 function printable(text: string): string {
-  return text.replace(/[^\n\x20-\x7e\u00a0-\u{10ffff}]/gu, '\ufffd');
+  return text.replace(/[^\n\x20-\x7e\u00a0-\u{10ffff}]|[\u202a-\u202e\u2066-\u2069]/gu, '\ufffd');
 }
 
 function defect(error: unknown): HandlebodyError {
