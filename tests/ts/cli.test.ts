@@ -345,7 +345,9 @@ describe('handlebody inspect', () => {
     expect(facts).toMatchObject({ format: 'GLB', vertices: 2930, triangles: 5856, components: 1, materials: ['spot'] });
     const { centers, spheres, voxels, grid, distance: method } = baked;
     expect(facts.body).toMatchObject({ matches: true, centers, spheres, voxels, grid, distance: method });
-    expect(facts.body.distances).toBe(centers * voxels * 2);
+    expect(facts.body.distances.bytes).toBe(centers * voxels * 2);
+    expect(facts.body.distances.stored).toBeGreaterThan(0);
+    expect(facts.body.distances.stored).toBeLessThanOrEqual(centers * voxels * 2);
     const { stdout, stderr, status } = await bench.run('inspect', 'body.glb');
     expect([status, stderr]).toEqual([0, '']);
     expect(stdout).toMatch(/^vertices +2930$/m);

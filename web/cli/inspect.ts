@@ -70,7 +70,8 @@ async function describeBodyOf(document: Document, report: Report) {
   if (!property) return undefined;
   try {
     const body = await readBody(document);
-    return body && { ...describeBody(body), distances: body.distances.byteLength, matches: true };
+    const stored = property.getAccessor('distances')?.getByteLength() ?? 0;
+    return body && { ...describeBody(body), distances: { bytes: body.distances.byteLength, stored }, matches: true };
   } catch (error) {
     if (!(error instanceof HandlebodyError)) throw error;
     const { code, message, remedy } = error;
@@ -126,7 +127,10 @@ function table(facts: Facts): string[] {
       ['  centers', body.centers],
       ['  spheres', body.spheres],
       ['  voxels', `${body.voxels} of ${body.grid.dimensions.join(' × ')}, ${short(body.grid.spacing)} apart`],
-      ['  distances', `${body.distance}, ${megabytes(body.distances)} unpacked`],
+      [
+        '  distances',
+        `${body.distance}, ${megabytes(body.distances.stored)} in the file, ${megabytes(body.distances.bytes)} unpacked`,
+      ],
     );
   } else if (body) rows.push(['  for this shape', `no (${body.error})`]);
   for (const { mesh, dimensions, examples, targets } of facts.poseSpaces) {
