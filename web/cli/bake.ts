@@ -37,8 +37,7 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   clock.lap('bake');
   await attachBody(document, body);
   const bytes = await modelBytes(document);
-  signal.throwIfAborted();
-  writeOutput(output, bytes);
+  await writeOutput(output, bytes, signal);
   clock.lap('write');
 
   const [vertices, triangles] = [mesh.positions.length / 3, mesh.triangles.length / 3];

@@ -66,8 +66,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
     'The output carries no interior distances, which are those of the shape at rest: bake it again to deform it further.',
   );
   const bytes = await modelBytes(document);
-  signal.throwIfAborted();
-  writeOutput(output, bytes);
+  await writeOutput(output, bytes, signal);
   clock.lap('write');
 
   const counts = {

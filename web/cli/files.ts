@@ -17,6 +17,7 @@ import {
 } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import path from 'node:path';
+import { setImmediate } from 'node:timers/promises';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { usageError } from './arguments.ts';
 
@@ -66,9 +67,15 @@ export function prepareOutput(name: string, { inputs, force }: { inputs: readonl
 
 /**
  * Writes an output: to a file beside it, which then takes its name. Nothing else runs in between, so that a signal finds either the old
- * file or the new one. Throws 'output-unwritable'.
+ * file or the new one; one that came during the work is heard first. Throws 'output-unwritable'.
  */
-export function writeOutput({ name, file, before }: Output, bytes: Uint8Array): void {
+export async function writeOutput(output: Output, bytes: Uint8Array, signal: AbortSignal): Promise<void> {
+  await setImmediate();
+  signal.throwIfAborted();
+  replaceFile(output, bytes);
+}
+
+function replaceFile({ name, file, before }: Output, bytes: Uint8Array): void {
   // A device or a pipe has no name to take.
   if (before && !before.isFile()) {
     try {

@@ -38,7 +38,7 @@ function describeSurface(document: Document) {
     textures: root.listTextures().length,
     skins: root.listSkins().length,
     animations: root.listAnimations().map((each) => each.getName()),
-    morphTargets: Math.max(0, ...primitives.map((primitive) => primitive.listTargets().length)),
+    morphTargets: primitives.reduce((most, primitive) => Math.max(most, primitive.listTargets().length), 0),
     extensions: used,
   };
 }
@@ -140,7 +140,7 @@ function table(facts: Facts): string[] {
     for (const { name, at } of examples) rows.push([`    ${name}`, at.map(short).join(', ')]);
   }
   const shown = rows.filter(([, value]) => value !== undefined);
-  const width = Math.max(...shown.map(([name]) => name.length)) + 2;
+  const width = shown.reduce((most, [name]) => Math.max(most, name.length), 0) + 2;
   return shown.map(([name, value]) => `${name.padEnd(width)}${value}`);
 }
 

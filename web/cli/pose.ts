@@ -41,8 +41,7 @@ export async function poseCommand({ values, words, report, signal, clock }: Run)
   clock.lap('solve');
   setWeights(document, space.mesh, targets, report);
   const bytes = await modelBytes(document);
-  signal.throwIfAborted();
-  writeOutput(output, bytes);
+  await writeOutput(output, bytes, signal);
   clock.lap('write');
 
   const where = sumByName(poses.dimensions, place);

@@ -50,7 +50,7 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   const primitives = unshare(ranges);
   const notes = new Set<string>();
   // One accessor serves several primitives where it did before: what is equal at rest, and in the same place, is equal now.
-  const written: { from: Accessor; with: Accessor | null; matrix: string; to: Accessor }[] = [];
+  const written = new Map<Accessor, { with: Accessor | null; matrix: string; to: Accessor }[]>();
 
   ranges.forEach((range, r) => {
     const primitive = primitives[r] as Primitive;
@@ -59,14 +59,15 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
     for (const attribute of ['POSITION', 'NORMAL'] as const) {
       const from = before[attribute];
       if (!from) continue;
-      const twin = written.find((w) => w.from === from && w.with === before.POSITION && w.matrix === matrix);
+      const twins = written.get(from) ?? [];
+      const twin = twins.find((w) => w.with === before.POSITION && w.matrix === matrix);
       const make = () => {
         const inverse = inverses[r] as Sixteen;
         const array = attribute === 'POSITION' ? positionsOf(range, shape.positions, inverse) : normalsOf(range, shape.normals);
         return document.createAccessor(from.getName(), from.getBuffer()).setType('VEC3').setArray(array);
       };
       const to = twin?.to ?? make();
-      if (!twin) written.push({ from, with: before.POSITION, matrix, to });
+      if (!twin) written.set(from, [...twins, { with: before.POSITION, matrix, to }]);
       primitive.setAttribute(attribute, to);
     }
     if (primitive.getAttribute('TANGENT')) {
@@ -76,7 +77,7 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
     if (primitive.listTargets().length > 0) notes.add('Morph targets keep their displacements, unturned.');
   });
   // What nothing uses any more would be written all the same.
-  for (const { from } of written)
+  for (const from of written.keys())
     if (!from.isDisposed() && from.listParents().every((parent) => parent === document.getRoot())) from.dispose();
   return [...notes];
 }
