@@ -71,16 +71,17 @@ int main(int argc, char** argv) {
   body.positions = positions.data(), body.triangles = triangles.data(), body.voxels = voxels.data();
   body.centers = centers.data(), body.distances = distances.data(), body.spheres = spheres.data();
 
+  const hb_irbf_options options{2, 0, 100, -1, 4, 5, 0, 2, 0, 0};
   hb_irbf* irbf = nullptr;
   const double prepare = least_milliseconds(3, [&] {
     hb_irbf_free(irbf);
-    check(hb_irbf_create(&body, 5, 2, 1e-6, 100, -1, &irbf));
+    check(hb_irbf_create(&body, &options, &irbf));
   });
   const std::vector<std::uint32_t> kinds(counts[5], 0);
   const double factor = least_milliseconds(5, [&] { check(hb_irbf_set_handles(irbf, handles.data(), kinds.data(), counts[5])); });
   for (int axis = 0; axis < 3; ++axis) hb_irbf_targets(irbf)[axis] += shift[static_cast<std::size_t>(axis)];
   hb_irbf_report report;
-  const double solve = least_milliseconds(20, [&] { check(hb_irbf_solve(irbf, 30, 0, &report)); });
+  const double solve = least_milliseconds(20, [&] { check(hb_irbf_solve(irbf, 30, 0, 1, &report)); });
   std::vector<float> out(positions.size()), normals(positions.size());
   const double deform = least_milliseconds(60, [&] { check(hb_irbf_deform(irbf, out.data(), nullptr, nullptr)); });
   const double with_normals = least_milliseconds(60, [&] { check(hb_irbf_deform(irbf, out.data(), nullptr, normals.data())); });

@@ -214,14 +214,14 @@ describe('irbf', () => {
     irbf.dispose();
   });
 
-  it('evaluates anywhere, as the vertices do', () => {
+  it('evaluates anywhere, as the vertices do to the 1e-4 of fixed point', () => {
     const irbf = prepare();
     irbf.targets[0] = (irbf.targets[0] ?? 0) - 1;
     irbf.solve();
     const out = positionsOf(irbf);
     const reference = irbf.evaluate(bar.mesh.positions);
     reference.forEach((x, i) => {
-      expect(Math.abs(x - (out[i] ?? 0))).toBeLessThan(1e-5 * bar.normalization.diagonal);
+      expect(Math.abs(x - (out[i] ?? 0))).toBeLessThan(1e-4 * bar.normalization.diagonal);
     });
     irbf.dispose();
   });

@@ -90,30 +90,57 @@ HB_API void hb_bake_free(hb_bake* bake);
 
 typedef struct hb_irbf hb_irbf;
 
+/* Options of hb_irbf_create. */
+typedef struct hb_irbf_options {
+  double relative_width; /* h, in mean center spacings */
+  double smoothness;     /* λ of eq. (10); 0 has it chosen from the body */
+  double anchor_weight;  /* μ */
+  double edge_exponent;  /* α of eq. (8) */
+  double support;        /* where the compact inverse multiquadric ends, in widths */
+  uint32_t kernel;       /* as in hb_rbf_options, but for 14 */
+  uint32_t host_kernel;  /* of kernel 15 */
+  int32_t order;         /* of polyharmonic */
+  uint32_t constraints;  /* 0 soft (appendix), 1 hard (§4.6) */
+  uint32_t precision;    /* of hb_irbf_deform: 0 for 16-bit fixed point, 1 for float */
+} hb_irbf_options;
+
 /* What the last hb_irbf_solve did. */
 typedef struct hb_irbf_report {
-  double energy;         /* eq. (10): sphere distortion + λ‖a‖², solver space */
+  double energy;         /* eq. (10): sphere distortion + λ‖a‖², and the soft constraints' misfit; solver space */
   double anchor_error;   /* largest distance between a handle's image and its target, model units */
   double change;         /* largest movement of a sphere edge in the last iteration, solver space */
   uint32_t iterations;
   uint32_t converged;    /* 1 when `change` fell below the tolerance */
 } hb_irbf_report;
 
-/* Prepares a baked body: basis functions at the spheres and at every vertex (float). `kernel` as in the kernel list, `relative_width`
- * h in mean center spacings, `smoothness` λ of eq. (10), `anchor_weight` μ, `edge_exponent` α of eq. (8).
- * Fails with BODY_INVALID, INVALID_OPTION or OUT_OF_MEMORY. */
-HB_API int32_t hb_irbf_create(const hb_body* body, uint32_t kernel, double relative_width, double smoothness, double anchor_weight, double edge_exponent, hb_irbf** irbf);
+/* How the present deformation treats volume and shape, and what the equations are like. */
+typedef struct hb_irbf_quality {
+  double volume_ratio;      /* of the deformed shape to that at rest */
+  double total_distortion;  /* Σ A min ‖df − R‖² over tetrahedra of volume A, model units³ */
+  double max_distortion;
+  double maximum_principle; /* the most by which a basis function inside leaves its range on the surface, over that range */
+  double condition;         /* estimated 1-norm condition number of the equations; 0 without handles */
+  double smoothness;        /* λ, given or chosen */
+  uint32_t flips;           /* tetrahedra turned inside out */
+  uint32_t tetrahedra;
+} hb_irbf_quality;
+
+/* Prepares a baked body: basis functions at the spheres and at every vertex. Fails with BODY_INVALID, INVALID_OPTION, KERNEL_FAILED or
+ * OUT_OF_MEMORY. */
+HB_API int32_t hb_irbf_create(const hb_body* body, const hb_irbf_options* options, hb_irbf** irbf);
 
 /* Sets the handles: `points` count × 3 in model units, `kinds` 0 for a position handle, 1 for one that also sets rotation and scale.
- * Builds and factors the system, and puts every target at rest. Fails with HANDLE_* codes and keeps the former handles. */
+ * Builds and factors the system, and puts every target at rest. Fails with HANDLE_* codes or
+ * SYSTEM_SINGULAR and keeps the former handles. */
 HB_API int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count);
 
 /* 10 numbers a handle: position xyz (model units), quaternion xyzw, scale xyz. Write it in place. */
 HB_API double* hb_irbf_targets(hb_irbf* irbf);
 
 /* Local/global iterations from where the last solve stopped, until no sphere edge moves more than `tolerance` (solver space) or
- * `max_iterations` are done. Fails with TARGET_NOT_FINITE, HANDLE_CONFLICT or HANDLES_MISSING and keeps the last solution. */
-HB_API int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, hb_irbf_report* report);
+ * `max_iterations` are done; `accelerate` 1 for Anderson acceleration, 0 for plain ones. Fails with TARGET_NOT_FINITE, HANDLE_CONFLICT or
+ * HANDLES_MISSING and keeps the last solution. */
+HB_API int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report);
 
 /* Deformed positions (vertex_count × 3, model units) of all vertices as stored, and normals when `normals` is not NULL: on entry
  * `rest_normals` (vertex_count × 3) or NULL for area-weighted ones. */
@@ -121,6 +148,10 @@ HB_API int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest
 
 /* The deformation at any `count` points of space (model units, in and out count × 3): the double-precision reference. */
 HB_API int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out);
+
+/* Measures the present deformation on `count` tetrahedra of the mesh's own vertices, or with 0 on those that the voxels make. Fails with
+ * MESH_INDEX_OUT_OF_RANGE or OUT_OF_MEMORY. */
+HB_API int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t count, hb_irbf_quality* quality);
 
 HB_API void hb_irbf_free(hb_irbf* irbf);
 

@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "abi/host_kernel.hpp"
 #include "abi/support.hpp"
 
 using handlebody::fail;
 using handlebody::Irbf;
+using handlebody::KernelKind;
 using handlebody::Points;
 
 struct hb_irbf {
@@ -43,11 +45,13 @@ handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
 
 extern "C" {
 
-int32_t hb_irbf_create(const hb_body* from, uint32_t kernel, double relative_width, double smoothness, double anchor_weight,
-                       double edge_exponent, hb_irbf** out) {
-  if (kernel >= handlebody::plain_kernel_count) {
-    return fail(
-        {HB_ERROR_INVALID_OPTION, {"There is no kernel ", kernel, "."}, {"Use a number of the kernel list."}, HB_CULPRIT_OPTION});
+int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irbf** out) {
+  if (given->constraints > 1 || given->precision > 1 || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
+      given->order < 2 || given->order > 8) {
+    return fail({HB_ERROR_INVALID_OPTION,
+                 {"The number of a kernel, its order, the constraints or the precision is unknown."},
+                 {"Use those that the header lists."},
+                 HB_CULPRIT_OPTION});
   }
   auto domain = read_domain(*from);
   if (!domain) return fail(domain.error());
@@ -64,11 +68,14 @@ int32_t hb_irbf_create(const hb_body* from, uint32_t kernel, double relative_wid
     body.spheres.push_back({handlebody::Vector3(sphere[0], sphere[1], sphere[2]), sphere[3]});
   }
   handlebody::IrbfOptions options;
-  options.kernel = static_cast<handlebody::KernelKind>(kernel);
-  options.relative_width = relative_width;
-  options.smoothness = smoothness;
-  options.anchor_weight = anchor_weight;
-  options.edge_exponent = edge_exponent;
+  options.kernel = handlebody::Kernel::of(static_cast<KernelKind>(given->kernel), given->relative_width, 3, given->order);
+  options.kernel.support = given->support;
+  options.kernel.custom = handlebody::host_kernel(given->host_kernel);
+  options.smoothness = given->smoothness;
+  options.anchor_weight = given->anchor_weight;
+  options.edge_exponent = given->edge_exponent;
+  options.constraints = static_cast<handlebody::ConstraintKind>(given->constraints);
+  options.precision = static_cast<handlebody::FramePrecision>(given->precision);
   auto irbf = Irbf::create(std::move(body), options);
   if (!irbf) return fail(irbf.error());
   *out = new hb_irbf{std::move(*irbf)};
@@ -87,8 +94,8 @@ double* hb_irbf_targets(hb_irbf* irbf) {
   return irbf->irbf->targets();
 }
 
-int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, hb_irbf_report* report) {
-  const auto solved = irbf->irbf->solve(static_cast<int>(std::min(max_iterations, 1u << 20)), tolerance);
+int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report) {
+  const auto solved = irbf->irbf->solve({static_cast<int>(std::min(max_iterations, 1u << 20)), tolerance, accelerate != 0});
   if (!solved) return fail(solved.error());
   report->energy = solved->energy;
   report->anchor_error = solved->anchor_error;
@@ -104,7 +111,23 @@ int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normal
 }
 
 int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out) {
-  Eigen::Map<Points>(out, count, 3) = irbf->irbf->evaluate(Eigen::Map<const Points>(points, count, 3));
+  const auto deformed = irbf->irbf->evaluate(Eigen::Map<const Points>(points, count, 3));
+  if (!deformed) return fail(deformed.error());
+  Eigen::Map<Points>(out, count, 3) = *deformed;
+  return HB_OK;
+}
+
+int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t count, hb_irbf_quality* out) {
+  const auto quality = irbf->irbf->quality(Eigen::Map<const handlebody::Tetrahedra>(tetrahedra, count, 4));
+  if (!quality) return fail(quality.error());
+  out->volume_ratio = quality->volume_ratio;
+  out->total_distortion = quality->total_distortion;
+  out->max_distortion = quality->max_distortion;
+  out->maximum_principle = quality->maximum_principle;
+  out->condition = irbf->irbf->condition();
+  out->smoothness = irbf->irbf->smoothness();
+  out->flips = static_cast<uint32_t>(quality->flips);
+  out->tetrahedra = static_cast<uint32_t>(quality->tetrahedra);
   return HB_OK;
 }
 

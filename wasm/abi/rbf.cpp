@@ -2,33 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
+#include "abi/host_kernel.hpp"
 #include "abi/interpolant.hpp"
 #include "core/interpolation/outliers.hpp"
 #include "core/interpolation/polynomial.hpp"
 
 using namespace handlebody;
 
-#ifdef __wasm__
-/** The host's kernel number `id` at s, or its derivative: the one function that the module asks of its host. */
-extern "C" __attribute__((import_module("env"), import_name("hb_host_kernel"))) double hb_host_kernel(uint32_t id,
-                                                                                                      uint32_t derivative,
-                                                                                                      double s);
-#endif
-
 namespace {
-
-#ifdef __wasm__
-double host_kernel(const void* context, double s, bool derivative) {
-  return hb_host_kernel(static_cast<uint32_t>(reinterpret_cast<uintptr_t>(context)), derivative ? 1 : 0, s);
-}
-#else
-/** Natively a CustomKernel is handed to the core itself. */
-double host_kernel(const void*, double, bool) {
-  return std::nan("");
-}
-#endif
 
 int32_t fail_not_rbf() {
   return fail({HB_ERROR_INVALID_OPTION, {"This interpolant is not a radial basis fit."}, {"Ask one that rbf() made."}});
@@ -45,7 +27,7 @@ Result<RbfOptions> read_options(const hb_rbf_options& from, uint32_t dimension) 
   options.basis.kernel = Kernel::of(kind, from.width, dimension, from.order);
   options.basis.kernel.support = from.support;
   if (kind == KernelKind::custom)  // definite or not, the caller decides on the tail
-    options.basis.kernel.custom = {host_kernel, reinterpret_cast<const void*>(static_cast<uintptr_t>(from.host_kernel)), -1};
+    options.basis.kernel.custom = host_kernel(from.host_kernel);
   options.basis.order = from.order;
   options.basis.degree = from.degree;
   options.basis.normalized = from.normalized != 0;

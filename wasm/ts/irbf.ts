@@ -3,21 +3,11 @@ import { checkMeshArrays } from './bake.ts';
 import { HandlebodyError } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
-import type { BodyData, Handle, IrbfKernel, IrbfOptions, SolveOptions, SolveReport } from './types.ts';
-
-/** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, is 1e-6 here. */
-export const IRBF_DEFAULTS = {
-  kernel: 'inverse-multiquadric',
-  relativeWidth: 2,
-  smoothness: 1e-6,
-  anchorWeight: 100,
-  edgeExponent: -1,
-} as const;
+import { resolve, writeOptions } from './irbf-options.ts';
+import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
-export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5 } as const;
-
-const KERNELS: Record<IrbfKernel, number> = { gaussian: 3, 'inverse-multiquadric': 5, 'inverse-quadratic': 6 };
+export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
 
 /** Numbers a handle takes in `targets`: position xyz, quaternion xyzw, scale xyz. */
 const TARGET_SIZE = 10;
@@ -40,25 +30,21 @@ export class Irbf {
   readonly #normals: number;
   readonly #restNormals: number;
   readonly #report: number;
+  readonly #hostKernel: number;
   #irbf: number;
+  #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
   #targets = new Float64Array();
   #hasRestNormals = false;
 
   /** @internal Use `Handlebody.irbf`. */
-  constructor(heap: Heap, body: BodyData, options: IrbfOptions) {
-    const { kernel, relativeWidth, smoothness, anchorWeight, edgeExponent } = { ...IRBF_DEFAULTS, ...options };
-    const kernelNumber = KERNELS[kernel];
-    if (kernelNumber === undefined) {
-      throw new HandlebodyError('invalid-option', {
-        message: `IRBF has no kernel called "${kernel}".`,
-        remedy: `Use one of: ${Object.keys(KERNELS).join(', ')}.`,
-      });
-    }
+  constructor(heap: Heap, body: BodyData, given: IrbfOptions) {
+    const options = resolve(given);
     checkBody(body);
     this.#heap = heap;
     this.#body = body;
-    this.#irbf = heap.scope((scratch) => {
+    this.#hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
+    this.#irbf = this.#run(() => heap.scope((scratch) => {
       const layout = LAYOUT.hb_body;
       const at = scratch.reserve(layout.sizeof);
       const arrays = {
@@ -85,9 +71,10 @@ export class Irbf {
         ...arrays,
       };
       for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
-      heap.check((e) => e.hb_irbf_create(at, kernelNumber, relativeWidth, smoothness, anchorWeight, edgeExponent, out));
+      const how = writeOptions(heap, scratch, options, this.#hostKernel);
+      heap.check((e) => e.hb_irbf_create(at, how, out));
       return heap.u32(out, 1)[0] ?? 0;
-    });
+    }), () => heap.kernels.remove(this.#hostKernel));
     // Taken once, so that a frame allocates nothing.
     const bytes = body.mesh.positions.length * 4;
     this.#positions = heap.alloc(bytes);
@@ -137,7 +124,7 @@ export class Irbf {
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
-      heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length));
+      this.#run(() => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
     });
     this.#handles = handles.length;
     this.#targets = heap
@@ -157,19 +144,54 @@ export class Irbf {
     const irbf = this.#alive();
     const maxIterations = options.maxIterations ?? SOLVE_DEFAULTS.maxIterations;
     const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
+    const accelerate = options.accelerate ?? SOLVE_DEFAULTS.accelerate;
     const targets = heap.call((e) => e.hb_irbf_targets(irbf));
     heap.f64(targets, this.#targets.length).set(this.#targets);
-    heap.check((e) => e.hb_irbf_solve(irbf, maxIterations, tolerance, this.#report));
+    heap.check((e) => e.hb_irbf_solve(irbf, maxIterations, tolerance, accelerate ? 1 : 0, this.#report));
     const layout = LAYOUT.hb_irbf_report;
     const numbers = heap.f64(this.#report, 3);
     const words = heap.u32(this.#report + layout.iterations, 2);
-    return {
+    this.#solved = {
       energy: numbers[0] ?? 0,
       anchorError: numbers[1] ?? 0,
       change: numbers[2] ?? 0,
       iterations: words[0] ?? 0,
       converged: words[1] === 1,
     };
+    return this.#solved;
+  }
+
+  /**
+   * The last `solve`, and how the present deformation treats volume and shape: on `tetrahedra` of the mesh's own vertices (m×4) or, without
+   * them, on the voxels, six tetrahedra each. Takes some frames' time; the first call on voxels prepares them.
+   */
+  report(tetrahedra: ArrayLike<number> = []): IrbfReport {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    if (tetrahedra.length % 4 !== 0) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `The tetrahedra have ${tetrahedra.length} numbers, which is not a multiple of 4.`,
+        remedy: 'Give four vertex numbers for every tetrahedron.',
+      });
+    }
+    return heap.scope((scratch) => {
+      const layout = LAYOUT.hb_irbf_quality;
+      const corners = scratch.putU32(tetrahedra);
+      const out = scratch.reserve(layout.sizeof);
+      this.#run(() => heap.check((e) => e.hb_irbf_measure(irbf, corners, tetrahedra.length / 4, out)));
+      const number = (offset: number) => heap.f64(out + offset, 1)[0] ?? 0;
+      const word = (offset: number) => heap.u32(out + offset, 1)[0] ?? 0;
+      return {
+        ...this.#solved,
+        smoothness: number(layout.smoothness),
+        condition: number(layout.condition),
+        maximumPrinciple: number(layout.maximum_principle),
+        volumeRatio: number(layout.volume_ratio),
+        distortion: { total: number(layout.total_distortion), max: number(layout.max_distortion) },
+        flips: word(layout.flips),
+        tetrahedra: word(layout.tetrahedra),
+      };
+    });
   }
 
   /**
@@ -207,7 +229,7 @@ export class Irbf {
     }
     heap.scope((scratch) => {
       const [from, to] = [scratch.putF64(points), scratch.reserve(points.length * 8)];
-      heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to));
+      this.#run(() => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
       out.set(heap.f64(to, out.length));
     });
     return out;
@@ -220,10 +242,24 @@ export class Irbf {
     this.#irbf = 0;
     this.#heap.call((e) => e.hb_irbf_free(irbf));
     for (const pointer of [this.#positions, this.#normals, this.#restNormals, this.#report]) this.#heap.free(pointer);
+    this.#heap.kernels.remove(this.#hostKernel);
   }
 
   [Symbol.dispose](): void {
     this.dispose();
+  }
+
+  /** What calls the kernel, which may be the caller's: what that did wrong is the better story. */
+  #run<T>(call: () => T, onFailure?: () => void): T {
+    try {
+      const result = call();
+      this.#heap.kernels.throwFailure();
+      return result;
+    } catch (error) {
+      onFailure?.();
+      this.#heap.kernels.throwFailure(error);
+      throw error;
+    }
   }
 
   #alive(): number {

@@ -1,4 +1,5 @@
 /** The plain data that crosses the library's boundaries: no classes, all of it can be posted between threads. */
+import type { KernelFunction, KernelName } from './kernels.ts';
 
 /** A triangle mesh in scene space, Y up. `positions` n×3; `triangles` m×3 indices, counter-clockwise seen from outside. */
 export interface Mesh {
@@ -54,31 +55,69 @@ export type Vec3 = readonly [number, number, number];
 export type Handle = ({ readonly vertex: number } | { readonly at: Vec3 }) & { readonly kind?: 'position' | 'rotation' };
 
 export interface IrbfOptions {
-  readonly kernel?: IrbfKernel;
-  /** The kernel's width h, in mean spacings of the centers. */
+  /**
+   * Any radial kernel of scattered interpolation, or a function of s = d/width. The sum of the centers' kernels is divided by, so kernels
+   * that change sign may be refused.
+   */
+  readonly kernel?: IrbfKernel | KernelFunction;
+  /** The kernel's width h, in mean spacings of the centers. Smaller is more local. */
   readonly relativeWidth?: number;
-  /** λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. */
-  readonly smoothness?: number;
+  /**
+   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto' chooses it from the body: coefficients as large
+   * as the model cost a fixed part of what collapsing every sphere would, whatever the number of spheres and centers and the model's size.
+   */
+  readonly smoothness?: number | 'auto';
+  /** 'soft' weighs the handles' misses by μ (appendix); 'hard' meets every target exactly (§4.6). */
+  readonly constraints?: 'soft' | 'hard';
   /** μ: how much an anchor counts beside a sphere's edge. */
   readonly anchorWeight?: number;
   /** α of eq. (8), the exponent of the edge length in a sphere's weight: −1 lets small spheres count as much as large ones. */
   readonly edgeExponent?: number;
+  /** Of 'compact-inverse-multiquadric': where it ends, in widths. */
+  readonly support?: number;
+  /** Of 'polyharmonic': the order of the Laplacian that it solves, 2 or more. */
+  readonly order?: number;
+  /** Arithmetic of `deform`: 16-bit fixed point, to some 1e-5 of the diagonal, or float, the reference, which takes twice as long. */
+  readonly precision?: 'fixed' | 'float';
 }
 
-export type IrbfKernel = 'inverse-multiquadric' | 'gaussian' | 'inverse-quadratic';
+export type IrbfKernel = Exclude<KernelName, 'clamped-plate'>;
 
 export interface SolveOptions {
   readonly maxIterations?: number;
   /** Stop when no sphere edge moves more than this part of the model's diagonal in one iteration. */
   readonly tolerance?: number;
+  /** False for plain local/global iterations, to compare with: they take some hundred times as many. */
+  readonly accelerate?: boolean;
 }
 
 export interface SolveReport {
-  /** Eq. (10) in solver space. */
+  /** Eq. (10) in solver space, with the misfit of soft constraints. */
   readonly energy: number;
   /** Largest distance between a handle's image and its target, model units. */
   readonly anchorError: number;
   readonly change: number;
   readonly iterations: number;
   readonly converged: boolean;
+}
+
+/** How a deformation treats volume and shape (paper 001, §5), and what the equations are like. */
+export interface IrbfReport extends SolveReport {
+  /** λ, as given or as chosen. */
+  readonly smoothness: number;
+  /** Estimated 1-norm condition number of the equations. With interior distances no theorem bounds it. */
+  readonly condition: number;
+  /**
+   * The most by which a basis function inside the body leaves the range that it has on the surface, over that range; 0 where the maximum
+   * principle holds.
+   */
+  readonly maximumPrinciple: number;
+  /** Volume of the deformed shape over that at rest. */
+  readonly volumeRatio: number;
+  /** Σ and largest of A min ‖df − R‖² over the tetrahedra, A their volumes: model units cubed. */
+  readonly distortion: { readonly total: number; readonly max: number };
+  /** Tetrahedra turned inside out. */
+  readonly flips: number;
+  /** How many were measured: those given, or six a voxel. */
+  readonly tetrahedra: number;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -37,6 +39,55 @@ class InteriorSamples {
       ratio += weights_[k] * ratios[slots_[k]];
     }
     return std::max(ratio, 1.0) * (points_[row] - center).norm();
+  }
+
+  /** The ratios of `lanes` centers at once, those of a voxel side by side: interior distances are scale · codes[lane][v]. */
+  template <typename Scalar, int lanes>
+  void block_ratios(const std::array<Vector3, lanes>& centers, const std::array<const std::uint16_t*, lanes>& codes, Scalar scale,
+                    std::vector<Scalar>& ratios) const {
+    ratios.resize(voxels_.size() * lanes);
+    Scalar x[lanes], y[lanes], z[lanes], interior[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const Vector3& center = centers[static_cast<std::size_t>(l)];
+      x[l] = static_cast<Scalar>(center[0]), y[l] = static_cast<Scalar>(center[1]), z[l] = static_cast<Scalar>(center[2]);
+    }
+    for (std::size_t k = 0; k < voxels_.size(); ++k) {
+      const auto px = static_cast<Scalar>(places_[k][0]), py = static_cast<Scalar>(places_[k][1]),
+                 pz = static_cast<Scalar>(places_[k][2]);
+      for (int l = 0; l < lanes; ++l) interior[l] = scale * static_cast<Scalar>(codes[static_cast<std::size_t>(l)][voxels_[k]]);
+      Scalar* ratio = ratios.data() + k * lanes;
+      for (int l = 0; l < lanes; ++l) {
+        const Scalar dx = px - x[l], dy = py - y[l], dz = pz - z[l];
+        const Scalar squared = dx * dx + dy * dy + dz * dz;
+        ratio[l] = squared > 0 ? interior[l] / std::sqrt(squared) : 1;
+      }
+    }
+  }
+
+  /** Interior distances of `count` points from `from` on, as distance() gives them, `lanes` centers side by side. */
+  template <typename Scalar, int lanes>
+  void block_distances(const std::array<Vector3, lanes>& centers, const std::vector<Scalar>& ratios, Index from, Index count,
+                       Scalar* distances) const {
+    Scalar x[lanes], y[lanes], z[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const Vector3& center = centers[static_cast<std::size_t>(l)];
+      x[l] = static_cast<Scalar>(center[0]), y[l] = static_cast<Scalar>(center[1]), z[l] = static_cast<Scalar>(center[2]);
+    }
+    for (Index i = 0; i < count; ++i, distances += lanes) {
+      const auto row = static_cast<std::size_t>(from + i);
+      Scalar sum[lanes] = {};
+      for (std::size_t k = offsets_[row]; k < offsets_[row + 1]; ++k) {
+        const auto weight = static_cast<Scalar>(weights_[k]);
+        const Scalar* ratio = ratios.data() + std::size_t{slots_[k]} * lanes;
+        for (int l = 0; l < lanes; ++l) sum[l] += weight * ratio[l];
+      }
+      const auto px = static_cast<Scalar>(points_[row][0]), py = static_cast<Scalar>(points_[row][1]),
+                 pz = static_cast<Scalar>(points_[row][2]);
+      for (int l = 0; l < lanes; ++l) {
+        const Scalar dx = px - x[l], dy = py - y[l], dz = pz - z[l];
+        distances[l] = std::max(sum[l], Scalar{1}) * std::sqrt(dx * dx + dy * dy + dz * dz);
+      }
+    }
   }
 
  private:

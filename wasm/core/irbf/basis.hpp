@@ -4,29 +4,29 @@
 #include "core/distance/interior_samples.hpp"
 #include "core/irbf/body.hpp"
 #include "core/kernels/kernel.hpp"
+#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
 
 class Basis {
  public:
-  /** `relative_width` is the kernel's width in mean spacings of the centers: the mean interior distance of a center to its nearest
-   *  neighbor (the bounding box's diagonal where there is only one). `body` must outlive the basis. */
-  Basis(const Body& body, KernelKind kind, double relative_width);
+  /** `kernel` is any radial one; its width is in mean spacings of the centers: the mean interior distance of a center to its
+   * nearest neighbor (the bounding box's diagonal where there is only one). A kernel without a width takes distances over the
+   * bounding box's diagonal. `body` must outlive the basis. */
+  Basis(const Body& body, const Kernel& kernel);
 
   const Kernel& kernel() const { return kernel_; }
   Index size() const { return static_cast<Index>(body_->centers.size()); }
 
-  /** φ at the samples: samples × centers; every row sums to 1. */
+  /** φ at the samples: samples × centers; every row sums to 1, but for rows where a kernel of compact support vanishes: there the
+   *  affine part alone acts. Fails with KERNEL_FAILED where a kernel of the caller's gave a number that is not finite, and with
+   *  INVALID_OPTION where kernels that change sign cancel each other, so that no sum is there to divide by. */
   template <typename Scalar>
-  void evaluate(const InteriorSamples& samples,
-                Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> phi) const;
+  Result<Done> evaluate(const InteriorSamples& samples,
+                        Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> phi) const;
 
  private:
-  /** Calls visit(c, center, ratios) for every center with the ratios of its field at the samples' voxels. */
-  template <typename Visit>
-  void for_each_center(const InteriorSamples& samples, const Visit& visit) const;
-
   const Body* body_;
   Kernel kernel_;
 };

@@ -1,35 +1,59 @@
-// The per-frame product: L x + t + Ψ a for every vertex, in SIMD float (paper 001, eq. (13)).
+// The per-frame product: L x + t + M c for every vertex (paper 001, eq. (13)), in 16-bit fixed point or in float, the reference.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
 
+enum class FramePrecision : unsigned { fixed = 0, floating = 1 };
+
 class FrameKernel {
  public:
-  /** Stores `positions` (n×3) and `psi` (n × centers) in tiles of eight vertices with the coefficients innermost: one pass over
-   *  memory, three accumulators. Measured against Eigen's row-major product on 40,000 × 241: 7.5 against 11 ms. */
-  FrameKernel(const PointsF& positions, const MatrixF& psi);
+  /** Stores `positions` (n×3) and `matrix` (n × columns) in tiles of vertices with the columns innermost: one pass over memory.
+   *
+   *  In fixed point, products of two columns at a time are added up by one instruction. A column is stored as its difference from
+   * its mean, scaled to 16 bits; the mean comes back as a translation. Coefficients are scaled for every 32
+   * columns, as far as no sum of them can overflow in any row: they keep 12 bits or more of their largest. */
+  FrameKernel(const PointsF& positions, const MatrixF& matrix, FramePrecision precision);
 
-  /** displacement (n×3) = linear·x + translation + Ψ·coefficients. Displacements, not positions: a small one keeps its precision,
-   *  and none at all leaves the rest shape exact. Allocates nothing. */
+  Index columns() const { return columns_; }
+
+  /** displacement (n×3) = linear·x + translation + M·coefficients (columns × 3). Displacements, not positions: a small one keeps
+   * its precision, and none at all leaves the rest shape exact. Allocates nothing. */
   void apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, PointsF& displacement);
 
  private:
-  /** One number of eight vertices. A vector type of the compiler's (GCC's extension, which Clang shares) and not Eigen's: Eigen's
-   *  packets can only be had for the whole program, at twice the size. */
-  static constexpr Index lanes = 8;
+  /** Vector types of the compiler's (GCC's extension, which Clang shares) and not Eigen's: Eigen's packets can only be had for the
+   *  whole program, at twice the size. */
   using Quad = float __attribute__((vector_size(16)));
-  using Tile = std::array<Quad, 2>;
+  using Pairs = std::int16_t __attribute__((vector_size(16)));  // two columns of four vertices, a vertex's pair side by side
+  static constexpr Index quads = 2, lanes = 4 * quads;          // of a tile
+  using FloatTile = std::array<Quad, quads>;
+  using FixedTile = std::array<Pairs, quads>;
+  static constexpr Index chunk = 16;  // pairs of columns between two conversions to float
 
-  Index vertices_;
-  Index centers_;
-  std::vector<Tile> positions_;  // 3 a tile: x, y, z
-  std::vector<Tile> psi_;        // centers a tile
+  void store_floats(const MatrixF& matrix);
+  void store_fixed(const MatrixF& matrix);
+  void scale_coefficients(const Matrix& coefficients);
+  void add_floats(Index tile, std::array<FloatTile, 3>& sums) const;
+  void add_fixed(Index tile, std::array<FloatTile, 3>& sums) const;
+
+  FramePrecision precision_;
+  Index vertices_, columns_;
+  std::vector<FloatTile> positions_;  // 3 a tile: x, y, z
+
+  std::vector<FloatTile> floats_;  // columns a tile
   PointsF coefficients_;
+
+  std::vector<FixedTile> fixed_;       // pairs of columns a tile
+  std::vector<double> means_, units_;  // of the columns: a number is mean + unit · code
+  std::vector<double> largest_sums_;   // of each chunk: the largest Σ |code| of a row
+  std::vector<std::int32_t> packed_;   // pairs × 3: two coefficients each
+  std::vector<float> worth_;           // chunks × 3: what 1 stands for in a chunk's sums
 };
 
 }  // namespace handlebody

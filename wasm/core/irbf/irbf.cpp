@@ -5,46 +5,30 @@
 #include <cmath>
 #include <utility>
 
+#include "core/irbf/sphere_energy.hpp"
+#include "core/numerics/closest_rotation.hpp"
+
 namespace handlebody {
 
 namespace {
 
-/** Two handles share a place, or a target, when closer than this part of the diagonal. */
-constexpr double same_place = 1e-9;
-constexpr Index most_handles = 1024;
 constexpr double most_bytes = 1.5e9;
-
-/** Points of the minimal structure of a sphere (Fig. 7a): the ends of three perpendicular edges, −x +x −y +y −z +z. */
-Vector3 structure_point(const Vector3& center, double radius, Index i) {
-  Vector3 point = center;
-  point(i / 2) += i % 2 == 0 ? -radius : radius;
-  return point;
-}
 
 Error invalid_option(const char* name, double value, const char* remedy) {
   return {HB_ERROR_INVALID_OPTION, {"IRBF's ", name, " is ", value, "."}, {remedy}, HB_CULPRIT_OPTION};
 }
 
-/** Rows that handles add to Z: one for the position, three more edges for the rotation. */
-Index constraint_count(const std::vector<HandleKind>& kinds) {
-  Index count = 0;
-  for (const HandleKind kind : kinds) count += kind == HandleKind::rotation ? 4 : 1;
-  return count;
-}
-
 Result<Done> check_options(const IrbfOptions& options) {
-  if (!(options.relative_width > 0) || !std::isfinite(options.relative_width)) {
-    return invalid_option("relative width", options.relative_width, "Use a positive number, such as 2.");
-  }
-  if (!(options.smoothness >= 1e-12) || !(options.smoothness <= 1e6)) {
-    return invalid_option("smoothness", options.smoothness, "Use a number from 1e-12 to 1e6, such as 1e-6.");
-  }
-  if (!(options.anchor_weight > 0) || !(options.anchor_weight <= 1e6)) {
+  const double width = options.kernel.width;
+  if (!(width > 0) || !std::isfinite(width)) return invalid_option("relative width", width, "Use a positive number, such as 2.");
+  if (options.kernel.kind > KernelKind::custom || options.kernel.kind == KernelKind::clamped_plate)
+    return invalid_option("kernel", static_cast<double>(options.kernel.kind), "Use a radial kernel of the list.");
+  if (options.smoothness != 0 && !(options.smoothness >= 1e-12 && options.smoothness <= 1e6))
+    return invalid_option("smoothness", options.smoothness, "Use a number from 1e-12 to 1e6, such as 1e-6, or have it chosen.");
+  if (!(options.anchor_weight > 0) || !(options.anchor_weight <= 1e6))
     return invalid_option("anchor weight", options.anchor_weight, "Use a positive number up to 1e6, such as 100.");
-  }
-  if (!std::isfinite(options.edge_exponent) || std::abs(options.edge_exponent) > 4) {
+  if (!std::isfinite(options.edge_exponent) || std::abs(options.edge_exponent) > 4)
     return invalid_option("edge exponent", options.edge_exponent, "Use a number from -4 to 4, such as -1.");
-  }
   return Done{};
 }
 
@@ -55,7 +39,8 @@ Result<std::unique_ptr<Irbf>> Irbf::create(Body body, const IrbfOptions& options
   if (auto checked = check_body(body); !checked) return checked.error();
   const auto centers = static_cast<double>(body.centers.size());
   const auto spheres = static_cast<double>(body.spheres.size());
-  const double bytes = 4 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + 9 * spheres) +
+  // The float matrix while the 16-bit one is made of it, the unknowns' matrices, the hat.
+  const double bytes = 6 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + 9 * spheres) +
                        8 * 9 * spheres * spheres;
   if (bytes > most_bytes) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
@@ -66,48 +51,33 @@ Result<std::unique_ptr<Irbf>> Irbf::create(Body body, const IrbfOptions& options
   std::unique_ptr<Irbf> irbf(new Irbf());
   irbf->options_ = options;
   irbf->body_ = std::move(body);
-  irbf->surface_ = std::make_unique<TriangleTree>(irbf->body_.solver_positions(), irbf->body_.triangles);
-  irbf->basis_ = std::make_unique<Basis>(irbf->body_, options.kernel, options.relative_width);
-  irbf->prepare_spheres();
-  irbf->prepare_vertices();
+  irbf->basis_ = std::make_unique<Basis>(irbf->body_, options.kernel);
+  if (auto done = irbf->prepare_spheres(); !done) return done.error();
+  if (auto done = irbf->prepare_vertices(); !done) return done.error();
   return irbf;
 }
 
-void Irbf::prepare_spheres() {
-  const Index spheres = static_cast<Index>(body_.spheres.size());
+Result<Done> Irbf::prepare_spheres() {
   const Index centers = basis_->size();
-  InteriorSamples samples;
-  for (const Sphere& sphere : body_.spheres) {
-    for (Index i = 0; i < 6; ++i) samples.add(body_.domain, structure_point(sphere.center, sphere.radius, i));
-  }
-  Matrix phi(samples.size(), centers);
-  basis_->evaluate<double>(samples, phi);
-
-  edges_.resize(3 * spheres, 3);
-  edge_scale_.resize(3 * spheres);
-  edge_rows_ = MatrixXd::Zero(3 * spheres, 4 + centers);
-  for (Index row = 0; row < 3 * spheres; ++row) {
-    const Vector3 edge = samples.point(2 * row + 1) - samples.point(2 * row);
-    // Eq. (8) squares a residual that is weighted by w = ‖e‖^α, so every row carries √w.
-    const double root = std::exp(options_.edge_exponent / 2 * std::log(edge.norm()));  // std::pow is 4 kB of tables
-    edges_.row(row) = root * edge;
-    edge_scale_(row) = 1 / root;
-    edge_rows_.row(row).head<3>() = root * edge;
-    edge_rows_.row(row).tail(centers) = root * (phi.row(2 * row + 1) - phi.row(2 * row));
-  }
+  auto energy = make_sphere_energy(body_, *basis_, options_.edge_exponent);
+  if (!energy) return energy.error();
+  smoothness_ = options_.smoothness > 0 ? options_.smoothness : automatic_smoothness(*energy);
+  edge_rows_ = std::move(energy->rows);
   gram_ = MatrixXd::Zero(4 + centers, 4 + centers);
   add_gram(edge_rows_, gram_);
-  gram_.diagonal().tail(centers).array() += options_.smoothness;
+  gram_.diagonal().tail(centers).array() += smoothness_;
+  local_global_ = std::make_unique<LocalGlobal>(std::move(energy->edges), std::move(energy->edge_scale));
 
-  rotations_.assign(static_cast<std::size_t>(spheres), Matrix3::Identity());
+  rotations_ = work_.warm = local_global_->rotations();
   coefficients_ = Matrix::Zero(centers, 3);
   // A rotation handle grips a ball about as large as the smaller spheres.
   double radii = 0;
   for (const Sphere& sphere : body_.spheres) radii += sphere.radius;
-  structure_radius_ = 0.5 * radii / static_cast<double>(spheres);
+  structure_radius_ = 0.5 * radii / static_cast<double>(body_.spheres.size());
+  return Done{};
 }
 
-void Irbf::prepare_vertices() {
+Result<Done> Irbf::prepare_vertices() {
   weld_ = weld_vertices(body_.positions);
   welded_triangles_ = weld_triangles(weld_, body_.triangles);
   stored_ = body_.positions.cast<float>();
@@ -121,250 +91,96 @@ void Irbf::prepare_vertices() {
     rest_.row(u) = point.cast<float>();
   }
   MatrixF psi(count, basis_->size());
-  basis_->evaluate<float>(samples, psi);
-  frame_kernel_ = std::make_unique<FrameKernel>(rest_, psi);
+  if (auto done = basis_->evaluate<float>(samples, psi); !done) return done.error();
+  surface_ranges_ = ColumnRanges::of(psi);
+  frame_kernel_ = std::make_unique<FrameKernel>(rest_, psi, options_.precision);
 
   displacement_ = PointsF::Zero(count, 3);
   deformed_ = rest_;
   rest_normals_.resize(count, 3);
   deformed_normals_.resize(count, 3);
   vertex_normals(rest_, welded_triangles_, rest_normals_);
+  return Done{};
 }
 
 // ---- handles ----------------------------------------------------------------------------------------------------------------
 
-Result<Points> Irbf::constraint_points(const ConstPoints& handles, const std::vector<HandleKind>& kinds) const {
-  if (handles.rows() > most_handles) {
-    return Error(HB_ERROR_INVALID_OPTION, {handles.rows(), " handles were given; the solver takes up to 1024."},
-                 {"Use fewer handles."});
-  }
-  Index count = handles.rows();
-  for (const HandleKind kind : kinds) count += kind == HandleKind::rotation ? 6 : 0;
-  Points points(count, 3);
-  Index row = 0;
-  for (Index k = 0; k < handles.rows(); ++k) {
-    if (!handles.row(k).allFinite()) {
-      return Error(HB_ERROR_HANDLE_NOT_FINITE, {"Handle ", k, " has a coordinate that is not a finite number."},
-                   {"Give x, y and z as ordinary numbers."}, HB_CULPRIT_HANDLE, k);
-    }
-    const Vector3 point = body_.normalization.to_solver(handles.row(k).transpose());
-    // The surface itself counts as inside, and so does what a voxel blurs.
-    if (std::abs(surface_->winding_number(point)) <= 0.5 && surface_->distance(point) > body_.domain.grid().spacing) {
-      return Error(HB_ERROR_HANDLE_OUTSIDE, {"Handle ", k, " lies outside the model."},
-                   {"Put it on a vertex or at a point inside the surface."}, HB_CULPRIT_HANDLE, k);
-    }
-    points.row(row++) = point;
-    if (kinds[static_cast<std::size_t>(k)] != HandleKind::rotation) continue;
-    for (Index i = 0; i < 6; ++i) points.row(row++) = structure_point(point, structure_radius_, i);
-  }
-  return points;
-}
-
-MatrixXd Irbf::constraint_rows(const Points& points, const std::vector<HandleKind>& kinds) const {
-  const Index centers = basis_->size();
-  InteriorSamples samples;
-  for (Index i = 0; i < points.rows(); ++i) samples.add(body_.domain, points.row(i).transpose());
-  Matrix phi(points.rows(), centers);
-  basis_->evaluate<double>(samples, phi);
-
-  MatrixXd rows = MatrixXd::Zero(constraint_count(kinds), 4 + centers);
-  const double mu = options_.anchor_weight;
-  Index row = 0, point = 0;
-  for (const HandleKind kind : kinds) {
-    rows.row(row).head<3>() = mu * points.row(point);
-    rows(row, 3) = mu;
-    rows.row(row++).tail(centers) = mu * phi.row(point++);
-    if (kind != HandleKind::rotation) continue;
-    for (Index edge = 0; edge < 3; ++edge, point += 2) {
-      rows.row(row).head<3>() = mu * (points.row(point + 1) - points.row(point));
-      rows.row(row++).tail(centers) = mu * (phi.row(point + 1) - phi.row(point));
-    }
-  }
-  return rows;
-}
-
 Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<HandleKind>& kinds) {
-  auto points = constraint_points(handles, kinds);
-  if (!points) return points.error();
-
-  Handles next;
-  next.kinds = kinds;
-  next.points = std::move(*points);
-  next.same_as.assign(kinds.size(), -1);
-  for (Index k = 1; k < handles.rows(); ++k) {
-    for (Index other = 0; other < k; ++other) {
-      const double apart = (handles.row(k) - handles.row(other)).norm();
-      if (apart > same_place * body_.normalization.diagonal) continue;
-      next.same_as[static_cast<std::size_t>(k)] = other;
-      break;
-    }
+  auto constraints = HandleConstraints::create(body_, *basis_, surface_, handles, kinds, structure_radius_);
+  if (!constraints) return constraints.error();
+  const Index repeated = constraints->repeated();
+  if (options_.constraints == ConstraintKind::hard && repeated >= 0) {
+    return Error(HB_ERROR_HANDLE_CONFLICT,
+                 {"Handle ", repeated, " sits where another one does; hard constraints take one a point."},
+                 {"Remove one of the two, or use soft constraints."}, HB_CULPRIT_HANDLE, repeated);
   }
+  ReducedSystem system;
   if (!kinds.empty()) {
-    next.rows = constraint_rows(next.points, kinds);
-    MatrixXd factor = gram_;
-    add_gram(next.rows, factor);
-    if (!factor_cholesky(factor)) {
-      return Error(HB_ERROR_INTERNAL, {"The system of handles and spheres is not positive definite."},
-                   {"Raise the smoothness, or move handles apart."});
-    }
-    MatrixXd solved(edge_rows_.rows() + next.rows.rows(), edge_rows_.cols());
-    solved.topRows(edge_rows_.rows()) = edge_rows_;
-    solved.bottomRows(next.rows.rows()) = next.rows;
-    solve_cholesky(factor, solved);
-    next.inverse = solved.transpose();
-    next.reduced = product(edge_rows_, next.inverse);
+    auto made = make_reduced_system(edge_rows_, gram_, constraints->rows(), options_.anchor_weight, options_.constraints);
+    if (!made) return made.error();
+    system = std::move(*made);
   }
-  handles_ = std::move(next);
-
-  work_.targets = work_.displacements = handles_.points;
-  work_.right_hand_side.resize(handles_.inverse.cols(), 3);
-  work_.edges.resize(edges_.rows(), 3);
-  work_.previous.resize(edges_.rows(), 3);
-  work_.solution.resize(handles_.inverse.rows(), 3);
-  work_.missed.resize(handles_.rows.rows(), 3);
-  work_.rotations = work_.warm = rotations_;
-
-  targets_.assign(kinds.size() * static_cast<std::size_t>(target_size), 0);
-  for (Index k = 0; k < handles.rows(); ++k) {
-    Eigen::Map<Eigen::Matrix<double, target_size, 1>> target(targets_.data() + k * target_size);
-    target << handles.row(k).transpose(), 0, 0, 0, 1, 1, 1, 1;
-  }
+  constraints_ = std::move(*constraints);
+  system_ = std::move(system);
+  targets_ = constraints_.rest(handles);
+  work_.targets = work_.displacements = constraints_.points();
+  work_.solution.resize(system_.inverse.rows(), 3);
+  work_.missed.resize(constraints_.rows().rows(), 3);
+  work_.solved_targets.clear();
+  work_.solved_targets.reserve(targets_.size());
+  if (!kinds.empty()) local_global_->set_system(system_.hat);
   return Done{};
 }
 
 // ---- solving ----------------------------------------------------------------------------------------------------------------
 
-Result<Done> Irbf::read_targets() {
-  Index row = 0;
-  for (Index k = 0; k < handle_count(); ++k) {
-    const Eigen::Map<const Eigen::Matrix<double, target_size, 1>> target(targets_.data() + k * target_size);
-    const bool rotates = handles_.kinds[static_cast<std::size_t>(k)] == HandleKind::rotation;
-    const Eigen::Quaterniond rotation(target(6), target(3), target(4), target(5));
-    const bool finite = rotates ? target.allFinite() && rotation.norm() > 1e-9 : target.head<3>().allFinite();
-    // A target far beyond any screen is a slip too, and its squares would overflow below.
-    if (!finite || (target.head<3>() - body_.normalization.center).norm() > 1e6 * body_.normalization.diagonal) {
-      return Error(HB_ERROR_TARGET_NOT_FINITE,
-                   {"The target of handle ", k, (finite ? " is a million model sizes away." : " is not a finite number.")},
-                   {"Give a position near the model and, for rotation handles, a unit quaternion and finite scales."},
-                   HB_CULPRIT_HANDLE, k);
-    }
-    const Index other = handles_.same_as[static_cast<std::size_t>(k)];
-    if (other >= 0) {
-      const Eigen::Map<const Vector3> wanted(targets_.data() + other * target_size);
-      if ((wanted - target.head<3>()).norm() > same_place * body_.normalization.diagonal) {
-        return Error(HB_ERROR_HANDLE_CONFLICT, {"Handles ", other, " and ", k, " sit on one point but have different targets."},
-                     {"Give both the same target, or remove one of them."}, HB_CULPRIT_HANDLE, k);
-      }
-    }
-    const Vector3 place = body_.normalization.to_solver(target.head<3>());
-    work_.targets.row(row++) = place;
-    if (!rotates) continue;
-    const Matrix3 turn = rotation.normalized().toRotationMatrix() * target.tail<3>().asDiagonal();
-    for (Index i = 0; i < 6; ++i) {
-      work_.targets.row(row++) = place + turn * structure_point(Vector3::Zero(), structure_radius_, i);
-    }
-  }
-  return Done{};
-}
-
-/** The constraints' part of the right-hand side, from the displacements of the constraint points. */
-void Irbf::set_constraint_targets() {
-  const Points& moved = work_.displacements;
-  const double mu = options_.anchor_weight;
-  Index row = edges_.rows(), point = 0;
-  for (const HandleKind kind : handles_.kinds) {
-    work_.right_hand_side.row(row++) = mu * moved.row(point++);
-    if (kind != HandleKind::rotation) continue;
-    for (Index edge = 0; edge < 3; ++edge, point += 2) {
-      work_.right_hand_side.row(row++) = mu * (moved.row(point + 1) - moved.row(point));
-    }
-  }
-}
-
-/** The spheres' part of the right-hand side: how far each rotation moves its edges. */
-void Irbf::set_edge_targets(const std::vector<Matrix3>& rotations) {
-  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
-    const Matrix3 turn = rotations[static_cast<std::size_t>(b)] - Matrix3::Identity();
-    work_.right_hand_side.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
-  }
-}
-
-/** Eq. (10) after a global step with the present right-hand side; leaves that step's solution in the workspace. */
-double Irbf::energy() {
-  multiply(handles_.inverse, work_.right_hand_side, work_.solution);
-  multiply(edge_rows_, work_.solution, work_.edges);
-  return (work_.edges - work_.right_hand_side.topRows(edges_.rows())).squaredNorm() +
-         options_.smoothness * work_.solution.bottomRows(basis_->size()).squaredNorm();
-}
-
-/** Local/global iterations on the reduced matrix: displacements of edges in, rotations out; neither C nor N appears. */
-void Irbf::iterate(int max_iterations, double tolerance, SolveReport& report) {
-  work_.previous = edges_;
-  while (report.iterations < max_iterations && !report.converged) {
-    set_edge_targets(work_.rotations);
-    multiply(handles_.reduced, work_.right_hand_side, work_.edges);
-    work_.edges += edges_;
-    for (Index b = 0; b < static_cast<Index>(work_.rotations.size()); ++b) {  // Procrustes, eq. (12)
-      work_.rotations[static_cast<std::size_t>(b)] =
-          closest_rotation(work_.edges.middleRows<3>(3 * b).transpose() * edges_.middleRows<3>(3 * b));
-    }
-    const auto moved = (work_.edges - work_.previous).rowwise().squaredNorm().array() * edge_scale_.array().square();
-    report.change = std::sqrt(moved.maxCoeff());
-    report.converged = ++report.iterations > 1 && report.change < tolerance;
-    work_.edges.swap(work_.previous);
-  }
-}
-
-/** Largest distance, model units, between a handle's image and its target under the workspace's solution. */
-double Irbf::largest_miss() const {
-  double largest = 0;
-  Index row = 0;
-  for (const HandleKind kind : handles_.kinds) {
-    largest = std::max(largest, work_.missed.row(row).norm());
-    row += kind == HandleKind::rotation ? 4 : 1;
-  }
-  return largest / options_.anchor_weight * body_.normalization.diagonal;
-}
-
-Result<SolveReport> Irbf::solve(int max_iterations, double tolerance) {
+Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   if (handle_count() == 0) {
     return Error(HB_ERROR_HANDLES_MISSING, {"There are no handles to solve for."}, {"Set at least one handle first."});
   }
-  if (auto read = read_targets(); !read) return read.error();
+  if (auto read = constraints_.read_targets(targets_.data(), body_.normalization, work_.targets); !read) return read.error();
 
   // The energy does not change when the whole picture turns, so the solve happens in a frame that is carried along rigidly with the
   // handles: what is unknown there is only the deformation, and it is exactly zero when the handles move rigidly.
-  const RigidMotion frame = closest_rigid_motion(handles_.points, work_.targets);
+  const Points& points = constraints_.points();
+  const RigidMotion frame = closest_rigid_motion(points, work_.targets);
   const Matrix3& turn = frame.rotation;
-  for (Index i = 0; i < handles_.points.rows(); ++i) {
-    const Vector3 local = turn.transpose() * (work_.targets.row(i).transpose() - frame.to) + frame.from;
-    work_.displacements.row(i) = local.transpose() - handles_.points.row(i);
+  LocalGlobal& iteration = *local_global_;
+  if (work_.solved_targets != targets_) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      const Vector3 local = turn.transpose() * (work_.targets.row(i).transpose() - frame.to) + frame.from;
+      work_.displacements.row(i) = local.transpose() - points.row(i);
+    }
+    constraints_.right_hand_side(work_.displacements, system_.weight, iteration.constraints());
+
+    // Start from the last rotations, unless carrying the rest shape along rigidly is clearly better.
+    std::vector<Matrix3>& rotations = iteration.rotations();
+    std::fill(rotations.begin(), rotations.end(), Matrix3::Identity());
+    if (solved_) {
+      const double rigid_energy = iteration.energy(rotations);
+      for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
+      if (iteration.energy(work_.warm) < 2 * rigid_energy) rotations.swap(work_.warm);
+    }
+    iteration.start();
+    work_.solved_targets = targets_;
   }
-  set_constraint_targets();
+  const LocalGlobalReport done = iteration.run({options.max_iterations, options.tolerance, options.accelerate});
 
-  // Start from the last rotations, unless carrying the rest shape along rigidly is clearly better.
-  std::fill(work_.rotations.begin(), work_.rotations.end(), Matrix3::Identity());
-  set_edge_targets(work_.rotations);
-  const double rigid_energy = energy();
-  if (solved_) {
-    for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
-    set_edge_targets(work_.warm);
-    if (energy() < 2 * rigid_energy) work_.rotations.swap(work_.warm);
-  }
-
-  SolveReport report;
-  iterate(max_iterations, tolerance, report);
-
-  set_edge_targets(work_.rotations);
-  report.energy = energy();
-  multiply(handles_.rows, work_.solution, work_.missed);
-  work_.missed -= work_.right_hand_side.bottomRows(work_.missed.rows());
-  report.anchor_error = largest_miss();
+  multiply(system_.inverse, iteration.right_hand_side(), work_.solution);
+  multiply(constraints_.rows(), work_.solution, work_.missed);
+  work_.missed -= iteration.constraints() / system_.weight;
   linear_ = turn * (Matrix3::Identity() + work_.solution.topRows<3>().transpose()) - Matrix3::Identity();
   translation_ = frame.to + turn * (work_.solution.row(3).transpose() - frame.from);
   coefficients_ = work_.solution.bottomRows(basis_->size()).lazyProduct(turn.transpose());
-  for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = turn * work_.rotations[b];
+  for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = turn * iteration.rotations()[b];
   solved_ = true;
+
+  SolveReport report;
+  report.energy = std::max(done.energy, 0.0);
+  report.anchor_error = constraints_.largest_miss(work_.missed) * body_.normalization.diagonal;
+  report.change = done.change;
+  report.iterations = done.iterations;
+  report.converged = done.converged;
   return report;
 }
 
@@ -373,9 +189,11 @@ Result<SolveReport> Irbf::solve(int max_iterations, double tolerance) {
 void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
   frame_kernel_->apply(linear_, translation_, coefficients_, displacement_);
   const auto diagonal = static_cast<float>(body_.normalization.diagonal);
-  Eigen::Map<PointsF> out(positions, vertex_count(), 3);
-  for (Index v = 0; v < vertex_count(); ++v) {
-    out.row(v) = stored_.row(v) + diagonal * displacement_.row(weld_.to_unique[static_cast<std::size_t>(v)]);
+  const float *stored = stored_.data(), *displacement = displacement_.data();
+  const Index count = vertex_count();
+  for (Index v = 0; v < count; ++v) {
+    const float* moved = displacement + 3 * weld_.to_unique[static_cast<std::size_t>(v)];
+    for (Index axis = 0; axis < 3; ++axis) positions[3 * v + axis] = stored[3 * v + axis] + diagonal * moved[axis];
   }
   if (normals == nullptr) return;
 
@@ -399,12 +217,12 @@ void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
   }
 }
 
-Points Irbf::evaluate(const ConstPoints& points) const {
+Result<Points> Irbf::evaluate(const ConstPoints& points) const {
   const Points solver = (points.rowwise() - body_.normalization.center.transpose()) / body_.normalization.diagonal;
   InteriorSamples samples;
   for (Index i = 0; i < solver.rows(); ++i) samples.add(body_.domain, solver.row(i).transpose());
-  Matrix phi(solver.rows(), basis_->size());
-  basis_->evaluate<double>(samples, phi);
+  Matrix phi = Matrix::Zero(solver.rows(), basis_->size());
+  if (auto done = basis_->evaluate<double>(samples, phi); !done) return done.error();
   Points deformed = points;
   for (Index i = 0; i < solver.rows(); ++i) {
     Vector3 displacement = linear_ * solver.row(i).transpose() + translation_;
@@ -412,6 +230,35 @@ Points Irbf::evaluate(const ConstPoints& points) const {
     deformed.row(i) += body_.normalization.diagonal * displacement.transpose();
   }
   return deformed;
+}
+
+Result<Quality> Irbf::quality(const Eigen::Ref<const Tetrahedra>& tetrahedra) {
+  const double diagonal = body_.normalization.diagonal;
+  if (!voxel_quality_) {
+    auto made = VoxelQuality::create(body_, *basis_, surface_ranges_);
+    if (!made) return made.error();
+    voxel_quality_ = std::move(*made);
+  }
+  Quality quality = voxel_quality_->measure(linear_, translation_, coefficients_, diagonal);
+  const double inside = static_cast<double>(body_.domain.size()) * std::exp(3 * std::log(body_.domain.grid().spacing * diagonal));
+  const double at_rest = enclosed_volume(body_.positions, body_.triangles);
+  PointsF moved(vertex_count(), 3);
+  deform(moved.data(), nullptr, nullptr);
+  const Points deformed = moved.cast<double>();
+  if (tetrahedra.rows() > 0) {
+    for (Index t = 0; t < tetrahedra.rows(); ++t) {
+      if (static_cast<Index>(tetrahedra.row(t).maxCoeff()) < vertex_count()) continue;
+      return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE, {"Tetrahedron ", t, " uses a vertex that the body does not have."},
+                   {"Give tetrahedra of the baked mesh's own vertices."}, HB_CULPRIT_TETRAHEDRON, t);
+    }
+    const double principle = quality.maximum_principle;
+    quality = measure_tetrahedra(tetrahedra, body_.positions, deformed);
+    quality.maximum_principle = principle;
+  } else if (std::abs(at_rest) > 0.5 * inside && std::abs(at_rest) < 2 * inside) {
+    // The surface itself tells its volume better than voxels, where it is closed and oriented: soup and clouds are neither.
+    quality.volume_ratio = enclosed_volume(deformed, body_.triangles) / at_rest;
+  }
+  return quality;
 }
 
 }  // namespace handlebody

@@ -1,0 +1,106 @@
+// Compiled with -O3: see CMakeLists.txt.
+#include "core/irbf/local_global.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/numerics/closest_rotation.hpp"
+
+namespace handlebody {
+
+namespace {
+
+constexpr Index window = 8;
+/** A step may raise the energy by rounding. */
+constexpr double rounding = 1e-12;
+
+}  // namespace
+
+LocalGlobal::LocalGlobal(Points edges, Vector edge_scale)
+    : edges_(std::move(edges)),
+      edge_scale_(std::move(edge_scale)),
+      anderson_(3 * edges_.rows(), window),
+      displaced_(Columns3::Zero(edges_.rows(), 3)),
+      turned_(displaced_),
+      stepped_(displaced_),
+      rotations_(static_cast<std::size_t>(edges_.rows() / 3), Matrix3::Identity()),
+      trial_(rotations_) {}
+
+void LocalGlobal::set_system(const MatrixXd& hat) {
+  hat_ = &hat;
+  hessian_ = RotationHessian(edges_, hat);
+  right_hand_side_ = image_ = residual_ = Columns3::Zero(hat.rows(), 3);
+}
+
+double LocalGlobal::energy(const std::vector<Matrix3>& rotations) {
+  // What is solved for are displacements: √w (M_b − I) e.
+  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
+    const Matrix3 turn = rotations[static_cast<std::size_t>(b)] - Matrix3::Identity();
+    right_hand_side_.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
+  }
+  multiply(*hat_, right_hand_side_, image_);
+  double sum = 0;
+  for (Index i = 0; i < image_.size(); ++i) sum += right_hand_side_.data()[i] * (right_hand_side_.data()[i] - image_.data()[i]);
+  return sum;
+}
+
+void LocalGlobal::start() {
+  energy_ = energy(rotations_);
+  displaced_ = image_.topRows(edges_.rows());
+  anderson_.forget();
+  accelerated_ = false;
+}
+
+/** The local step: Procrustes, eq. (12), for every sphere. */
+void LocalGlobal::plain_step(std::vector<Matrix3>& rotations) const {
+  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
+    const Matrix3 moved = displaced_.middleRows<3>(3 * b) + edges_.middleRows<3>(3 * b);
+    rotations[static_cast<std::size_t>(b)] = closest_rotation(moved.transpose() * edges_.middleRows<3>(3 * b));
+  }
+}
+
+/** From rotations_, whose right-hand side and image are at hand. What Anderson combines are turned edges; the closest rotations
+ * make a step of them again. */
+void LocalGlobal::accelerated_step() {
+  if (hessian_.empty()) {
+    plain_step(trial_);
+  } else {
+    residual_ = right_hand_side_ - image_;
+    hessian_.step(edges_, residual_, rotations_, trial_);
+  }
+  for (Index b = 0; b < static_cast<Index>(rotations_.size()); ++b) {
+    const auto edges = edges_.middleRows<3>(3 * b);
+    turned_.middleRows<3>(3 * b).noalias() = edges * rotations_[static_cast<std::size_t>(b)].transpose();
+    stepped_.middleRows<3>(3 * b).noalias() = edges * trial_[static_cast<std::size_t>(b)].transpose();
+  }
+  anderson_.accelerate(turned_.data(), stepped_.data(), stepped_.data());
+  for (Index b = 0; b < static_cast<Index>(rotations_.size()); ++b) {
+    trial_[static_cast<std::size_t>(b)] = closest_rotation(stepped_.middleRows<3>(3 * b).transpose() * edges_.middleRows<3>(3 * b));
+  }
+}
+
+LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
+  LocalGlobalReport report;
+  while (report.iterations < options.max_iterations && !report.converged) {
+    ++report.iterations;
+    if (!accelerated_) plain_step(trial_);
+    const double energy = this->energy(trial_);
+    if (accelerated_ && !(energy <= energy_ * (1 + rounding))) {  // the step did harm: a plain one cannot
+      accelerated_ = false;
+      continue;
+    }
+    energy_ = energy;
+    rotations_.swap(trial_);
+    const auto moved = image_.topRows(edges_.rows()) - displaced_;
+    report.change = std::sqrt((moved.rowwise().squaredNorm().array() * edge_scale_.array().square()).maxCoeff());
+    report.converged = report.change < options.tolerance;
+    displaced_ = image_.topRows(edges_.rows());
+    accelerated_ = options.accelerate;
+    if (accelerated_) accelerated_step();
+  }
+  report.energy = energy(rotations_);
+  return report;
+}
+
+}  // namespace handlebody

@@ -1,0 +1,74 @@
+// Minimization of the sphere energy (paper 001, §4.6) over the rotations of the spheres: local/global iterations, whose steps a
+// quasi-Newton direction lengthens (rotation_hessian.hpp) and Anderson acceleration combines, guarded by the energy as by Peng et
+// al. (2018). An iteration touches neither centers nor vertices.
+//
+// The dog, 112 spheres, 400 centers, a paw lifted; iterations from rest to within 10% and 1% of the least energy: local/global
+// alone 277, 908; with Anderson (window 8) 40, 78; with the quasi-Newton direction 5, 12; with both 4, 7. An iteration takes as
+// long, 0.1 ms.
+#pragma once
+
+#include <vector>
+
+#include "core/irbf/rotation_hessian.hpp"
+#include "core/numerics/anderson.hpp"
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+
+struct LocalGlobalOptions {
+  int max_iterations = 100;
+  double tolerance = 1e-5;
+  bool accelerate = true;
+};
+
+struct LocalGlobalReport {
+  double energy = 0;  // eq. (10), with the soft constraints' misfit
+  double change = 0;  // largest movement of a sphere edge in the last iteration that was kept
+  int iterations = 0;
+  bool converged = false;
+};
+
+class LocalGlobal {
+ public:
+  /** `edges`: three a sphere, weighted by √w (3B × 3); `edge_scale` 1/√w. */
+  LocalGlobal(Points edges, Vector edge_scale);
+
+  /** The matrix of ReducedSystem; must outlive the iterations. Rotations stay. */
+  void set_system(const MatrixXd& hat);
+
+  /** Constraint rows of the right-hand side, to be written before start(): displacements, weighted. */
+  auto constraints() { return right_hand_side_.bottomRows(right_hand_side_.rows() - edges_.rows()); }
+
+  std::vector<Matrix3>& rotations() { return rotations_; }
+
+  /** The least energy for given rotations and the present constraints. */
+  double energy(const std::vector<Matrix3>& rotations);
+
+  /** Begins at `rotations()`, forgetting earlier steps. */
+  void start();
+
+  /** Goes on from where it stopped. Allocates nothing. Leaves the best rotations in rotations(), and their right-hand side. */
+  LocalGlobalReport run(const LocalGlobalOptions& options);
+
+  /** √w (M_b − I) e of the rotations, then the constraints. */
+  const Columns3& right_hand_side() const { return right_hand_side_; }
+
+ private:
+  void plain_step(std::vector<Matrix3>& rotations) const;
+  void accelerated_step();
+
+  Points edges_;
+  Vector edge_scale_;
+  const MatrixXd* hat_ = nullptr;
+  RotationHessian hessian_;
+  Anderson anderson_;
+  Columns3 right_hand_side_, image_;  // and hat times it
+  Columns3 residual_;                 // their difference
+  Columns3 displaced_;                // the edges' displacements at rotations_
+  Columns3 turned_, stepped_;         // edges turned by rotations, before and after a step
+  std::vector<Matrix3> rotations_, trial_;
+  bool accelerated_ = false;  // whether trial_ holds such a step
+  double energy_ = 0;
+};
+
+}  // namespace handlebody

@@ -1,0 +1,31 @@
+// The curvature of the sphere energy over the rotations of the spheres, factored once for a set of handles.
+//
+// With the mapping solved for, eq. (10) is a function of the rotations alone: F = rhsᵀ(I − hat) rhs. Local/global iterations
+// descend it by steps that bound the curvature by that of hat = 0; slow are the long waves, a limb's spheres turning together,
+// which I − hat hardly resists. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, knows them.
+#pragma once
+
+#include <vector>
+
+#include "core/numerics/dense.hpp"
+
+namespace handlebody {
+
+class RotationHessian {
+ public:
+  RotationHessian() = default;
+
+  /** `edges` √w e (3B×3), `hat` of ReducedSystem. Stays empty where there are too many spheres for it to pay. */
+  RotationHessian(const Points& edges, const MatrixXd& hat);
+
+  bool empty() const { return factor_.size() == 0; }
+
+  /** Turns the rotations by the Newton step, from the residual Γ₁ − Z₁Π at them. Allocates nothing. */
+  void step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& rotations, std::vector<Matrix3>& turned);
+
+ private:
+  MatrixXd factor_;
+  Vector gradient_;
+};
+
+}  // namespace handlebody
