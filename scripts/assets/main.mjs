@@ -47,7 +47,7 @@ async function bakedBytes(name, document) {
   if (!options) return toBytes(document);
   const { load } = await import('../../dist/wasm/ts/index.js');
   const { attachBody, readMesh } = await import('../../dist/web/assets/index.js');
-  attachBody(document, await (await load()).bake(readMesh(document).mesh, options));
+  await attachBody(document, await (await load()).bake(readMesh(document).mesh, options));
   return toBytes(document);
 }
 

@@ -330,7 +330,7 @@ async function tryAll(bytes: Uint8Array): Promise<string> {
     const document = await readGlb(bytes);
     readPoseSpaces(document);
     readMesh(document);
-    readBody(document);
+    await readBody(document);
     return 'read';
   } catch (error) {
     if (error instanceof HandlebodyError) return error.code;
@@ -341,8 +341,9 @@ async function tryAll(bytes: Uint8Array): Promise<string> {
 describe('hostile files', async () => {
   const document = makeDocument([TETRAHEDRON, triangle(2)], [triangle(3)]);
   const { mesh } = readMesh(document);
-  attachBody(document, {
-    version: 0,
+  await attachBody(document, {
+    version: 1,
+    distance: 'fast-marching',
     mesh,
     positionsHash: hashPositions(mesh.positions),
     normalization: { center: [0, 0, 0], diagonal: 2 },
@@ -354,7 +355,7 @@ describe('hostile files', async () => {
     spheres: Float64Array.of(0.25, 0.25, 0.25, 0.125),
   });
   attachPoseSpace(document, document.getRoot().listMeshes()[0] as Mesh, {
-    version: 0,
+    version: 1,
     dimensions: [{ name: 'valence', min: -1, max: 1 }],
     examples: [{ name: 'neutral', at: [0], weights: [] }],
   });

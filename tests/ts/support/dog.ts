@@ -5,7 +5,7 @@ import { bounds } from './shapes.ts';
 
 /** The baked dog as it is served. */
 export async function readDog(): Promise<BodyData> {
-  const body = readBody(await readGlb(readFileSync(new URL('../../../public/models/dog.glb', import.meta.url))));
+  const body = await readBody(await readGlb(readFileSync(new URL('../../../public/models/dog.glb', import.meta.url))));
   if (!body) throw new Error('public/models/dog.glb carries no body');
   return body;
 }
