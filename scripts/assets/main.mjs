@@ -33,7 +33,7 @@ const RECIPES = {
  * @type {Record<string, { centers: number, resolution: number, spheres: number }>}
  */
 const BAKES = {
-  dog: { centers: 300, resolution: 96, spheres: 120 },
+  dog: { centers: 200, resolution: 96, spheres: 120 },
   spot: { centers: 150, resolution: 40, spheres: 80 },
 };
 

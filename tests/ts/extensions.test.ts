@@ -95,6 +95,12 @@ async function codeOf(work: () => unknown): Promise<string> {
   return 'nothing was thrown';
 }
 
+/** A grid of 2^32 − 1 voxels, and runs in it. */
+function gigantic(body: BodyProperty, runs: number[]): void {
+  body.setHeader({ ...body.getHeader(), grid: { origin: [0, 0, 0], spacing: 1e-3, dimensions: [65537, 65535, 1] } });
+  body.getAccessor('voxels')?.setArray(Uint32Array.from(runs));
+}
+
 const property = (document: Document) => document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY) as BodyProperty;
 
 describe('HANDLEBODY_body', () => {
@@ -127,7 +133,7 @@ describe('HANDLEBODY_body', () => {
     expect(json.extensionsUsed).toEqual([HANDLEBODY_BODY]);
     expect(json.extensionsRequired).toBeUndefined();
     expect(Object.keys(extension).sort()).toEqual(
-      [...Object.keys(makeBody(document)).filter((name) => name !== 'mesh'), 'order'].sort(),
+      [...Object.keys(makeBody(document)).filter((name) => name !== 'mesh'), 'arraysHash', 'order'].sort(),
     );
     const { type, componentType, bufferView } = json.accessors?.[extension.distances ?? -1] ?? {};
     expect([type, componentType, typeof bufferView]).toEqual(['SCALAR', 5121, 'number']);
@@ -173,13 +179,17 @@ describe('HANDLEBODY_body', () => {
     expect(await codeOf(() => readBody(document))).toBe('body-mismatch');
   });
 
-  it('refuses other versions', async () => {
+  it.each([
+    ['former', 0, /^Bake the model again/],
+    ['newer', 2, /^Update Handlebody/],
+    ['unknown', 'x', /^Update Handlebody/],
+  ])('refuses a %s version and says what to do', async (_, version, remedy) => {
     const document = makeScene();
     await attachBody(document, makeBody(document));
-    property(document).setHeader({ ...property(document).getHeader(), version: 2 });
-    const newer = await readGlb(await writeGlb(document));
-    expect(await codeOf(() => readBody(newer))).toBe('body-version');
-    expect(readMesh(newer).mesh).toEqual(readMesh(document).mesh);
+    property(document).setHeader({ ...property(document).getHeader(), version });
+    const other = await readGlb(await writeGlb(document));
+    await expect(readBody(other)).rejects.toMatchObject({ code: 'body-version', remedy: expect.stringMatching(remedy) });
+    expect(readMesh(other).mesh).toEqual(readMesh(document).mesh);
   });
 
   it.each<[string, (document: Document, body: BodyProperty) => unknown]>([
@@ -194,10 +204,21 @@ describe('HANDLEBODY_body', () => {
         body
           .getAccessor('voxels')
           ?.getArray()
-          ?.set([10 * 11 * 12], 300),
+          ?.set([10 * 11 * 12], 100),
     ],
+    ['a run of no voxels', (_, body) => body.getAccessor('voxels')?.getArray()?.set([0], 1)],
+    ['an empty gap between runs', (_, body) => body.getAccessor('voxels')?.getArray()?.set([0], 2)],
+    ['a run cut off', (_, body) => body.getAccessor('voxels')?.setArray(Uint32Array.of(0, 300, 1))],
+    ['fewer voxels', (_, body) => body.getAccessor('voxels')?.setArray(Uint32Array.of(0, 300))],
+    ['a center stored twice', (_, body) => body.getAccessor('order')?.setArray(Uint32Array.of(0, 1, 2, 3, 3))],
+    ['a center not stored', (_, body) => body.getAccessor('order')?.setArray(Uint32Array.of(0, 1, 2, 3))],
+    ['distances of no known method', (_, body) => body.setHeader({ ...body.getHeader(), distance: 'guess' })],
+    ['more voxels than memory has', (_, body) => gigantic(body, [0, 0xffff_fff0])],
+    ['more distances than memory has', (_, body) => gigantic(body, [0, 30_000_000])],
+    ['more distances than its bytes can hold', (_, body) => gigantic(body, [0, 1_000_000])],
     ['spheres that are not finite', (_, body) => body.getAccessor('spheres')?.getArray()?.set([Number.NaN], 2)],
     ['a negative radius', (_, body) => body.getAccessor('spheres')?.getArray()?.set([-1], 3)],
+    ['another hash of its arrays', (_, body) => body.setHeader({ ...body.getHeader(), arraysHash: '0123456789abcdef' })],
     ['no hash', (_, body) => body.setHeader({ ...body.getHeader(), positionsHash: 7 })],
     ['no grid', (_, body) => body.setHeader({ ...body.getHeader(), grid: null })],
     [
@@ -240,6 +261,21 @@ describe('HANDLEBODY_pose_space', () => {
     expect(back.map(({ mesh, ...space }) => [mesh.getName(), space])).toEqual([['face 1', POSES]]);
   });
 
+  it('has examples that are morph targets of their own, and stays as it is from file to file', async () => {
+    const document = makeScene();
+    const [mesh] = document.getRoot().listMeshes();
+    const examples = [...POSES.examples, { name: 'smile', at: [0.5, 0.5], target: 1 }];
+    attachPoseSpace(document, mesh as NonNullable<typeof mesh>, { ...POSES, examples });
+    // glTF-Transform sorts what it reads: what it writes stays the same from then on.
+    const bytes = await writeGlb(await readGlb(await writeGlb(document)));
+    const back = await readGlb(bytes);
+    const [space] = readPoseSpaces(back);
+    expect(space?.examples.at(-1)).toEqual({ name: 'smile', at: [0.5, 0.5], target: 1, weights: [0, 1] });
+    const { mesh: face, ...rest } = space as NonNullable<typeof space>;
+    attachPoseSpace(back, face, rest);
+    expect(await writeGlb(back)).toEqual(bytes);
+  });
+
   it('is replaced, not added to, and does not keep the array it was given', () => {
     const document = makeScene();
     const [mesh] = document.getRoot().listMeshes();
@@ -253,13 +289,16 @@ describe('HANDLEBODY_pose_space', () => {
   });
 
   it.each<[string, string, Record<string, unknown>]>([
-    ['another version', 'file-unsupported', { version: 2 }],
+    ['a newer version', 'file-unsupported', { version: 2 }],
+    ['the former version', 'file-unsupported', { version: 0 }],
     ['no dimensions', 'file-invalid', { dimensions: [] }],
     ['a dimension without extent', 'file-invalid', { dimensions: [{ name: 'valence', min: 1, max: 1 }, POSES.dimensions[1]] }],
     ['one name twice', 'file-invalid', { dimensions: [POSES.dimensions[0], POSES.dimensions[0]] }],
     ['examples that are no list', 'file-invalid', { examples: 'x' }],
     ['a place of another dimension', 'example-shape-mismatch', { examples: [{ name: 'a', at: [1], weights: [0, 1] }] }],
     ['weights for other targets', 'example-shape-mismatch', { examples: [{ name: 'a', at: [1, 0], weights: [0, 1, 2] }] }],
+    ['a target that is not there', 'example-shape-mismatch', { examples: [{ name: 'a', at: [1, 0], target: 2 }] }],
+    ['a target and weights', 'file-invalid', { examples: [{ name: 'a', at: [1, 0], target: 0, weights: [1, 0] }] }],
     ['weights that are no numbers', 'example-not-finite', { examples: [{ name: 'a', at: [1, 0], weights: [0, null] }] }],
   ])('refuses %s', async (_, code, change) => {
     const document = makeScene();

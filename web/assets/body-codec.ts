@@ -2,16 +2,17 @@
  * A baked body as the arrays of HANDLEBODY_body, and back, without loss but for the spheres, which are stored as floats. The same body
  * gives the same bytes everywhere. meshoptimizer does the compressing; it is loaded when the first body is read or written.
  */
+import { hashWords } from '../../wasm/ts/hash.ts';
 import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
 import { addPredictions, fromLanes, predictionMisses, toLanes } from './predict-distances.ts';
-import { type BodyHeader, bodyInvalid, checkBody, checkStored, type StoredArrays } from './schema.ts';
+import { bodyInvalid, checkBody, checkStored, type StoredArrays, type StoredHeader } from './schema.ts';
 import { countInRuns, fromRuns, toRuns } from './voxel-runs.ts';
 
 /** Bytes of one of the codec's vertices: two codes. */
 const VERTEX = 4;
 
-/** The arrays to store. `body` was checked by `checkBody`, distances and all. */
-export async function encodeBody(body: BodyData): Promise<StoredArrays> {
+/** The arrays to store, and their hash. `body` was checked by `checkBody`, distances and all. */
+export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays; arraysHash: string }> {
   const { MeshoptEncoder } = await import('meshoptimizer/encoder');
   await MeshoptEncoder.ready;
   const { voxels, centers, grid } = body;
@@ -21,17 +22,18 @@ export async function encodeBody(body: BodyData): Promise<StoredArrays> {
   const misses = predictionMisses(codes, { voxels, dimensions: grid.dimensions, centers: centers.length });
   const lanes = toLanes(misses);
   const bytes = new Uint8Array(lanes.buffer);
-  return {
+  const arrays = {
     voxels: toRuns(voxels),
     centers: Uint32Array.from(centers),
     order,
     distances: MeshoptEncoder.encodeVertexBufferLevel(bytes, bytes.length / VERTEX, VERTEX, 3, 1),
     spheres: Float32Array.from(body.spheres),
   };
+  return { arrays, arraysHash: hashArrays(arrays, lanes) };
 }
 
 export interface DecodeBodyInput {
-  readonly header: BodyHeader;
+  readonly header: StoredHeader;
   /** As found in the file: nothing is known of them. */
   readonly arrays: { readonly [name in keyof StoredArrays]?: unknown };
   /** Asked for only when the rest is sound. */
@@ -44,7 +46,7 @@ export interface DecodeBodyInput {
  * Throws 'body-invalid' when the arrays are damaged or contradict each other, 'body-mismatch' when the body was baked for another mesh,
  * and what `mesh` throws. Nothing is allocated that the arrays' own size does not justify.
  */
-export async function decodeBody({ header, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
+export async function decodeBody({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
   const stored = checkStored(arrays, header);
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
@@ -62,11 +64,18 @@ export async function decodeBody({ header, arrays, mesh }: DecodeBodyInput): Pro
   } catch (cause) {
     throw bodyInvalid('has distances that cannot be decompressed', cause);
   }
+  if (hashArrays(stored, lanes) !== arraysHash) throw bodyInvalid('has arrays that are not as they were written');
   const codes = fromLanes(lanes, count);
   addPredictions(codes, { voxels, dimensions, centers: centers.length });
   const distances = new Uint16Array(count);
   transpose(distances, codes, order, 'to-centers');
   return { ...body, distances };
+}
+
+/** Of all that is stored, so that damage is found, and wrong numbers of codes, which the codec does not always tell. */
+function hashArrays({ voxels, centers, order, spheres }: StoredArrays, lanes: Uint16Array): string {
+  const words = (array: Float32Array | Uint16Array) => new Uint32Array(array.buffer, array.byteOffset, array.byteLength / 4);
+  return hashWords([voxels, centers, order, words(lanes), words(spheres)]);
 }
 
 /** The centers one after another, each the nearest to the one before that has not been: their fields then differ little. */

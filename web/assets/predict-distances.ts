@@ -51,6 +51,20 @@ interface Stencil {
   whole: boolean;
 }
 
+/** Back along x, y, z to the neighbors a, b, c; ab, ac, bc; abc; and two back. */
+const STEPS = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+  [1, 1, 0],
+  [1, 0, 1],
+  [0, 1, 1],
+  [1, 1, 1],
+  [2, 0, 0],
+  [0, 2, 0],
+  [0, 0, 2],
+] as const;
+
 const PLANES = [
   [0, 1, 3],
   [0, 2, 4],
@@ -63,20 +77,21 @@ function forEachStencil(
   [nx, ny]: readonly [number, number, number],
   visit: (voxel: number, stencil: Stencil) => void,
 ): void {
-  const nxy = nx * ny;
-  // a, b, c; ab, ac, bc; abc; and twice a, b, c.
-  const steps = [1, nx, nxy, 1 + nx, 1 + nxy, nx + nxy, 1 + nx + nxy, 2, 2 * nx, 2 * nxy];
+  const steps = STEPS.map(([x, y, z]) => x + nx * (y + ny * z));
   // The neighbor in a direction moves on as the voxel does: one pointer a direction finds it without a table of the grid.
   const at = steps.map(() => 0);
   const found = steps.map(() => -1);
   const stencil: Stencil = { plus: [], minus: [], count: 1, whole: false };
   for (let i = 0; i < voxels.length; i++) {
+    const here = voxels[i] as number;
+    const [x, y] = [here % nx, Math.floor(here / nx) % ny];
     for (let k = 0; k < steps.length; k++) {
-      const wanted = (voxels[i] as number) - (steps[k] as number);
+      const wanted = here - (steps[k] as number);
       let p = at[k] as number;
       while ((voxels[p] as number) < wanted) p++;
       at[k] = p;
-      found[k] = voxels[p] === wanted ? p : -1;
+      const [dx, dy] = STEPS[k] as (typeof STEPS)[number];
+      found[k] = voxels[p] === wanted && x >= dx && y >= dy ? p : -1;
     }
     choose(stencil, found, i);
     visit(i, stencil);

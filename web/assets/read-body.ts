@@ -3,7 +3,7 @@ import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from './body-codec.ts';
 import type { BodyAccessorName, BodyProperty } from './body-extension.ts';
 import { readMesh } from './read-mesh.ts';
-import { BODY_ACCESSORS, HANDLEBODY_BODY, parseBodyHeader, type StoredArrays } from './schema.ts';
+import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays } from './schema.ts';
 
 /**
  * The baked body of a document, or undefined when it has none. Its mesh is `readMesh(document).mesh`. Decompressing takes some
@@ -19,7 +19,7 @@ import { BODY_ACCESSORS, HANDLEBODY_BODY, parseBodyHeader, type StoredArrays } f
 export async function readBody(document: Document): Promise<BodyData | undefined> {
   const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
   if (!property) return undefined;
-  const header = parseBodyHeader(property.getHeader());
+  const header = parseStoredHeader(property.getHeader());
   const names = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];
   const arrays = Object.fromEntries(names.map((name) => [name, property.getAccessor(name)?.getArray()?.slice()]));
   return decodeBody({ header, arrays: arrays as Partial<StoredArrays>, mesh: () => readMesh(document).mesh });

@@ -9,6 +9,7 @@
  *     "normalization": { "center": [x, y, z], "diagonal": d },
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
+ *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
  *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
  *     "centers": accessor,     unsigned int SCALAR: vertices
  *     "order": accessor,       unsigned int SCALAR: the center that the k-th stored row of distances is of
@@ -38,6 +39,11 @@ const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
 
 /** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
 export type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
+
+/** The same in a file. */
+export interface StoredHeader extends BodyHeader {
+  readonly arraysHash: string;
+}
 
 /** The arrays of a body, as its accessors hold them. */
 export interface StoredArrays {
@@ -97,6 +103,14 @@ export function parseBodyHeader(json: unknown): BodyHeader {
   const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
   if (cells < 1 || cells > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
   return header;
+}
+
+/** The same out of a file, with the hash of the arrays. */
+export function parseStoredHeader(json: unknown): StoredHeader {
+  const header = parseBodyHeader(json);
+  const { arraysHash } = asObject(json) ?? {};
+  if (typeof arraysHash !== 'string') throw bodyInvalid('has no hash of its arrays');
+  return { ...header, arraysHash };
 }
 
 /**

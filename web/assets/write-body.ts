@@ -23,12 +23,15 @@ export async function attachBody(document: Document, body: BodyData): Promise<Bo
   const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale });
   const checked = { ...body, ...header, mesh: readMesh(document).mesh };
   checkBody(checked);
-  const arrays = await encodeBody(checked);
+  const { arrays, arraysHash } = await encodeBody(checked);
 
   detachBody(document);
   const root = document.getRoot();
   const buffer = root.listBuffers()[0] ?? document.createBuffer();
-  const property = document.createExtension(BodyExtension).createBody().setHeader(header);
+  const property = document
+    .createExtension(BodyExtension)
+    .createBody()
+    .setHeader({ ...header, arraysHash });
   for (const [name, { type }] of Object.entries(BODY_ACCESSORS)) {
     const accessor = document.createAccessor(`${HANDLEBODY_BODY}.${name}`, buffer).setType(type);
     property.setAccessor(name as BodyAccessorName, accessor.setArray(arrays[name as BodyAccessorName]));

@@ -13,7 +13,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from '../assets/body-codec.ts';
 import { type PoseSpaceData, parsePoseSpace } from '../assets/pose-space-schema.ts';
-import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseBodyHeader, type StoredArrays } from '../assets/schema.ts';
+import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
 import { meshFromObject } from './geometry.ts';
 
 /** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
@@ -73,7 +73,7 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   async #readBody(scene: Object3D): Promise<BodyData | undefined> {
     const json = this.#parser.json.extensions?.[HANDLEBODY_BODY] as Record<string, unknown> | undefined;
     if (!json) return undefined;
-    const header = parseBodyHeader(json);
+    const header = parseStoredHeader(json);
     const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
     const arrays = Object.fromEntries(await Promise.all(entries)) as Partial<StoredArrays>;
     return decodeBody({ header, arrays, mesh: () => meshFromObject(scene).mesh });
