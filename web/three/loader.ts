@@ -11,16 +11,9 @@ import type { Object3D, Mesh as ThreeMesh } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import {
-  assembleBody,
-  BODY_ACCESSORS,
-  type BodyArrays,
-  HANDLEBODY_BODY,
-  HANDLEBODY_POSE_SPACE,
-  type PoseSpaceData,
-  parseBodyHeader,
-  parsePoseSpace,
-} from '../assets/schema.ts';
+import { decodeBody } from '../assets/body-codec.ts';
+import { type PoseSpaceData, parsePoseSpace } from '../assets/pose-space-schema.ts';
+import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
 import { meshFromObject } from './geometry.ts';
 
 /** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
@@ -80,10 +73,10 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   async #readBody(scene: Object3D): Promise<BodyData | undefined> {
     const json = this.#parser.json.extensions?.[HANDLEBODY_BODY] as Record<string, unknown> | undefined;
     if (!json) return undefined;
-    const header = parseBodyHeader(json);
+    const header = parseStoredHeader(json);
     const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
-    const arrays = Object.fromEntries(await Promise.all(entries)) as unknown as BodyArrays;
-    return assembleBody({ header, arrays, mesh: meshFromObject(scene).mesh });
+    const arrays = Object.fromEntries(await Promise.all(entries)) as Partial<StoredArrays>;
+    return decodeBody({ header, arrays, mesh: () => meshFromObject(scene).mesh });
   }
 
   /** The loader's arrays may be windows on one buffer, which posting a body to a worker would take along: so they are copied. */
