@@ -220,6 +220,29 @@ TEST_CASE("the chosen λ does not depend on the model's size, and follows the en
   CHECK(chosen(body, 0) < chosen(body, -1));  // edges are shorter than 1
 }
 
+TEST_CASE(
+    "the smaller of the two products gives what the other one does, and a new set of handles keeps the shape until it is solved") {
+  // 27 + 8 columns by spheres and handles, 100 by centers; and 40 spheres, where centers are fewer.
+  for (const int spheres : {9, 40}) {
+    const Body body = bar(100, spheres);
+    CAPTURE(spheres);
+    for (const FramePrecision precision : {FramePrecision::floating, FramePrecision::fixed}) {
+      IrbfOptions options;
+      options.precision = precision;
+      auto irbf = bent(body, options);
+      REQUIRE(irbf->solve({50, 1e-7, true}));
+      const auto reference = irbf->evaluate(body.positions);
+      REQUIRE(reference);
+      const Points moved = positions(*irbf);
+      const double error = (moved - *reference).rowwise().norm().maxCoeff() / body.normalization.diagonal;
+      MESSAGE("largest error " << error);
+      CHECK(error < (precision == FramePrecision::fixed ? 1e-4 : 4e-6));
+      REQUIRE(irbf->set_handles(corners().topRows(4), std::vector<HandleKind>(4, HandleKind::position)));
+      CHECK((positions(*irbf) - moved).rowwise().norm().maxCoeff() < 2e-4 * body.normalization.diagonal);
+    }
+  }
+}
+
 TEST_CASE("one handle carries the shape along, and two turn it") {
   const Body body = bar(60, 9);
   for (const ConstraintKind kind : {ConstraintKind::soft, ConstraintKind::hard}) {
