@@ -203,6 +203,24 @@ TEST_CASE("Fig. 9: with seven spheres, too small a λ is jerky, too large a one 
   }
 }
 
+TEST_CASE("Fig. 20: fewer centers follow the spheres less") {
+  double last_energy = 0;
+  for (const Index centers : {50, 35, 20, 10}) {
+    const Body body = bar(centers, 20);
+    IrbfOptions options;
+    options.smoothness = 1e-6;
+    auto irbf = bent(body, options);
+    const auto report = irbf->solve({1000, 1e-8, true});
+    REQUIRE(report);
+    const auto quality = irbf->quality(Tetrahedra(0, 4));
+    REQUIRE(quality);
+    MESSAGE(centers << " centers: energy " << report->energy << ", distortion " << quality->total_distortion << ", volume "
+                    << quality->volume_ratio);
+    CHECK(report->energy > last_energy);
+    last_energy = report->energy;
+  }
+}
+
 TEST_CASE("the chosen λ does not depend on the model's size, and follows the energy's weights") {
   const Body body = bar(60, 9);
   const auto chosen = [](const Body& from, double exponent) {
