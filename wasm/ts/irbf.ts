@@ -44,37 +44,41 @@ export class Irbf {
     this.#heap = heap;
     this.#body = body;
     this.#hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
-    this.#irbf = this.#run(() => heap.scope((scratch) => {
-      const layout = LAYOUT.hb_body;
-      const at = scratch.reserve(layout.sizeof);
-      const arrays = {
-        positions: scratch.putF64(body.mesh.positions),
-        triangles: scratch.putU32(body.mesh.triangles),
-        voxels: scratch.putU32(body.voxels),
-        centers: scratch.putU32(body.centers),
-        distances: scratch.putU16(body.distances),
-        spheres: scratch.putF64(body.spheres),
-      };
-      const out = scratch.reserve(4);
-      heap.f64(at + layout.center, 3).set(body.normalization.center);
-      heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;
-      heap.f64(at + layout.origin, 3).set(body.grid.origin);
-      heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
-      heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
-      heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
-      const words = {
-        vertex_count: body.mesh.positions.length / 3,
-        triangle_count: body.mesh.triangles.length / 3,
-        voxel_count: body.voxels.length,
-        center_count: body.centers.length,
-        sphere_count: body.spheres.length / 4,
-        ...arrays,
-      };
-      for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
-      const how = writeOptions(heap, scratch, options, this.#hostKernel);
-      heap.check((e) => e.hb_irbf_create(at, how, out));
-      return heap.u32(out, 1)[0] ?? 0;
-    }), () => heap.kernels.remove(this.#hostKernel));
+    this.#irbf = this.#run(
+      () =>
+        heap.scope((scratch) => {
+          const layout = LAYOUT.hb_body;
+          const at = scratch.reserve(layout.sizeof);
+          const arrays = {
+            positions: scratch.putF64(body.mesh.positions),
+            triangles: scratch.putU32(body.mesh.triangles),
+            voxels: scratch.putU32(body.voxels),
+            centers: scratch.putU32(body.centers),
+            distances: scratch.putU16(body.distances),
+            spheres: scratch.putF64(body.spheres),
+          };
+          const out = scratch.reserve(4);
+          heap.f64(at + layout.center, 3).set(body.normalization.center);
+          heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;
+          heap.f64(at + layout.origin, 3).set(body.grid.origin);
+          heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
+          heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
+          heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
+          const words = {
+            vertex_count: body.mesh.positions.length / 3,
+            triangle_count: body.mesh.triangles.length / 3,
+            voxel_count: body.voxels.length,
+            center_count: body.centers.length,
+            sphere_count: body.spheres.length / 4,
+            ...arrays,
+          };
+          for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
+          const how = writeOptions(heap, scratch, options, this.#hostKernel);
+          heap.check((e) => e.hb_irbf_create(at, how, out));
+          return heap.u32(out, 1)[0] ?? 0;
+        }),
+      () => heap.kernels.remove(this.#hostKernel),
+    );
     // Taken once, so that a frame allocates nothing.
     const bytes = body.mesh.positions.length * 4;
     this.#positions = heap.alloc(bytes);

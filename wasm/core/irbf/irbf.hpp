@@ -97,6 +97,7 @@ class Irbf {
   Irbf() = default;
   Result<Done> prepare_spheres();
   Result<Done> prepare_vertices();
+  std::unique_ptr<FrameKernel> make_handle_kernel(const ReducedSystem& system) const;
 
   IrbfOptions options_;
   Body body_;
@@ -112,8 +113,10 @@ class Irbf {
   Triangles welded_triangles_;
   PointsF stored_;                                                            // as stored, model units
   PointsF rest_, displacement_, deformed_, rest_normals_, deformed_normals_;  // welded, solver space
-  std::unique_ptr<FrameKernel> frame_kernel_;
-  ColumnRanges surface_ranges_;  // of the basis functions over the vertices
+  std::unique_ptr<FrameKernel> frame_kernel_;                                 // Ψ, by the coefficients of the centers
+  MatrixF psi_;                                                               // kept where the other product may be the smaller one
+  std::unique_ptr<FrameKernel> handle_kernel_;  // [x 1 Ψ] Z†, by the right-hand side of spheres and handles
+  ColumnRanges surface_ranges_;                 // of the basis functions over the vertices
   std::unique_ptr<VoxelQuality> voxel_quality_;
 
   HandleConstraints constraints_;
@@ -128,6 +131,11 @@ class Irbf {
   Matrix3 linear_ = Matrix3::Zero();
   Vector3 translation_ = Vector3::Zero();
   Matrix coefficients_;
+  // The same in the handles' product: the displacement linear·x + translation + [x 1 Ψ] Z†·right_hand_side.
+  bool by_handles_ = false;
+  Matrix3 carried_linear_ = Matrix3::Zero();
+  Vector3 carried_translation_ = Vector3::Zero();
+  Matrix right_hand_side_;
 };
 
 }  // namespace handlebody
