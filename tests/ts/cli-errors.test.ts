@@ -34,6 +34,7 @@ const files: Record<string, string | Uint8Array> = {
     'ply\nformat ascii 1.0\nelement vertex 1000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n',
   'good.json': '{"handles": [{"vertex": 0, "to": [0, 0, 0]}]}',
   'broken.json': '{"handles": [',
+  'smooth.json': '{"handles": [{"vertex": 0, "to": [0, 0, 0]}], "smoothness": 1e9}',
   'unknown.json': '{"handles": [{"vertex": 0, "to": [0, 0, 0], "color": 1}]}',
 };
 
@@ -69,6 +70,12 @@ describe('exit codes', () => {
     [
       'handles with an unknown key',
       ['deform', 'baked.glb', '--handles', 'unknown.json', '-o', 'out.glb'],
+      EXIT.refused,
+      'handles-invalid',
+    ],
+    [
+      'a smoothness that the solver refuses',
+      ['deform', 'baked.glb', '--handles', 'smooth.json', '-o', 'out.glb'],
       EXIT.refused,
       'handles-invalid',
     ],

@@ -50,7 +50,7 @@ describe('parseHandles', () => {
     [{ handles: [] }, 'handles-invalid', 'an empty one', undefined],
     [{ handles: [good], smootness: 1 }, 'handles-invalid', '"smootness"', undefined],
     [{ handles: [good], smoothness: 'soft' }, 'handles-invalid', '"soft"', undefined],
-    [{ handles: [good], smoothness: -1 }, 'handles-invalid', '-1', undefined],
+    [{ handles: [good], smoothness: 0 }, 'handles-invalid', 'smoothness 0', undefined],
     [{ handles: [good], relativeWidth: 0 }, 'handles-invalid', 'relativeWidth 0', undefined],
     [{ handles: [good, 7] }, 'handles-invalid', 'no object', 1],
     [{ handles: [good, { ...good, target: [1, 1, 1] }] }, 'handles-invalid', '"target"', 1],

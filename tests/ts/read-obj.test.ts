@@ -75,6 +75,15 @@ describe('readObj', () => {
     expect(errorOf(() => readWith('f 1 2 x')).message).toContain('Line 200001');
   });
 
+  it('refuses statements that would take far more memory than the file', () => {
+    for (const lines of [
+      [`f ${'1 '.repeat(600_000)}`],
+      Array<string>(60_000).fill('1 1 1 1 1 1 1 1 1 1 \\'),
+      ['x'.repeat(17 << 20)],
+    ])
+      expect(errorOf(() => readObj(bytesOf(lines.join('\n')))).message).toMatch(/more than 1(6)? MiB/);
+  });
+
   it.each([
     [['v 0 0'], 1, '2 numbers'],
     [['# fine', 'v 0 0 nan'], 2, '"nan"'],

@@ -11,6 +11,9 @@ const IGNORED = new Set(
 /** Of these, the ones that carry shapes which are left out. */
 const LEFT_OUT: Record<string, string> = { l: 'lines', p: 'points', curv: 'curves', curv2: 'curves', surf: 'free-form surfaces' };
 
+/** A statement is taken apart as a whole: real ones have some hundred letters. */
+const MAX_STATEMENT = 1 << 20;
+
 /** Corners of all triangles, as numbers into the lists of the file; 0 stands for none in `uvs` and `normals`. */
 interface Corners {
   readonly vertices: NumberList<Uint32Array>;
@@ -162,16 +165,13 @@ function* statements(bytes: Uint8Array): Generator<{ text: string; line: number 
     const comment = text.indexOf('#');
     const code = (comment === -1 ? text : text.slice(0, comment)).trimEnd();
     if (joined === '') first = number;
-    if (code.endsWith('\\')) {
-      joined += `${code.slice(0, -1)} `;
-      if (joined.length > MAX_STATEMENT) throw lineError(bytes, first, { format: 'OBJ', what: 'goes on for too many lines' });
-      continue;
-    }
+    const goesOn = code.endsWith('\\');
+    if (goesOn) joined += `${code.slice(0, -1)} `;
+    if (joined.length + code.length > MAX_STATEMENT) throw lineError(bytes, first, { format: 'OBJ', what: 'says more than 1 MiB' });
+    if (goesOn) continue;
     const statement = (joined + code).trim();
     joined = '';
     if (statement !== '') yield { text: statement, line: first };
   }
   if (joined.trim() !== '') yield { text: joined.trim(), line: first };
 }
-
-const MAX_STATEMENT = 1 << 24;

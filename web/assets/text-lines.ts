@@ -2,7 +2,7 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 
 const BLOCK = 1 << 20;
-const MAX_LINE = 1 << 26;
+const MAX_LINE = 1 << 24;
 const [LF, CR] = [10, 13];
 
 export interface TextLine {
@@ -14,7 +14,7 @@ export interface TextLine {
 /**
  * The lines of a UTF-8 text without their ends, which may be \n, \r\n or \r. `firstLine` is the number of the first.
  *
- * Throws 'file-invalid' for a line of more than 64 MiB, which no text has.
+ * Throws 'file-invalid' for a line of more than 16 MiB, which no text has.
  */
 export function* textLines(bytes: Uint8Array, firstLine = 1): Generator<TextLine> {
   const decoder = new TextDecoder();

@@ -38,8 +38,11 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   clock.lap('read');
 
   const hb = await load({ signal });
-  const irbf = hb.irbf(body, options);
-  irbf.setHandles(handles);
+  const irbf = fromHandles(handlesName, () => {
+    const made = hb.irbf(body, options);
+    made.setHandles(handles);
+    return made;
+  });
   clock.lap('prepare');
   irbf.targets.set(targets);
   irbf.solve({ maxIterations: MAX_ITERATIONS });
@@ -84,6 +87,18 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
         `volume ${percent(quality.volumeRatio)}, ${quality.flips} flipped tetrahedra, ${(clock.total() / 1000).toFixed(1)} s`,
     ],
   );
+}
+
+/** Handles and options come from the file of handles, and so does the fault when the solver refuses them. */
+function fromHandles<T>(name: string, work: () => T): T {
+  try {
+    return work();
+  } catch (error) {
+    if (!(error instanceof HandlebodyError)) throw error;
+    const { code, message, remedy, culprit } = error;
+    const refused = code === 'invalid-option' ? new HandlebodyError('handles-invalid', { message, remedy, cause: error }) : error;
+    throw culprit?.kind === 'handle' || refused !== error ? naming(name, refused) : error;
+  }
 }
 
 async function readHandles(name: string, vertexCount: number) {

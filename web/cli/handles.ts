@@ -36,8 +36,8 @@ export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: 
   const { relativeWidth, smoothness } = file;
   if (relativeWidth !== undefined && !(isNumber(relativeWidth) && relativeWidth > 0))
     throw invalid(`has the relativeWidth ${JSON.stringify(relativeWidth)}, which should be a number above 0.`);
-  if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness >= 0))
-    throw invalid(`has the smoothness ${JSON.stringify(smoothness)}, which should be a number from 0 on, or "auto".`);
+  if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness > 0))
+    throw invalid(`has the smoothness ${JSON.stringify(smoothness)}, which should be a number above 0, or "auto".`);
   const options = { ...(relativeWidth !== undefined && { relativeWidth }), ...(smoothness !== undefined && { smoothness }) };
   return { handles, targets, options: options as HandlesFile['options'] };
 }
