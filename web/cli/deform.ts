@@ -39,7 +39,8 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
 
   const hb = await load({ signal });
   const irbf = fromHandles(handlesName, () => {
-    const made = hb.irbf(body, options);
+    // Once, not every frame: the exact product.
+    const made = hb.irbf(body, { ...options, precision: 'float' });
     made.setHandles(handles);
     return made;
   });
