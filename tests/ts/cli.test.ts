@@ -177,7 +177,7 @@ describe('handlebody bake', () => {
   it.each([
     ['OBJ', objOf],
     ['PLY', plyOf],
-  ])('bakes an %s: vertices as in the file, with normals, the same bytes each time', async (format, write) => {
+  ])('bakes from %s: vertices as in the file, with normals, the same bytes each time', async (format, write) => {
     const file = `bar.${format.toLowerCase()}`;
     writeFileSync(bench.at(file), write(BAR));
     const result = await bench.json('bake', file, '-o', 'a.glb', ...QUICK);

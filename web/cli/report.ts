@@ -74,7 +74,10 @@ export class Report {
     const known = error instanceof HandlebodyError ? error : defect(error);
     const { code, message, remedy, culprit } = known;
     if (this.json) this.#out.write(`${JSON.stringify({ error: { code, message, remedy, culprit } }, null, 2)}\n`);
-    else this.#line(`error: ${message}\n  ${remedy}\n  (${code}${culprit ? `, ${culprit.kind} ${culprit.index}` : ''})`);
+    else
+      this.#line(
+        `error: ${message}\n  ${remedy}\n  (${code}${culprit && culprit.index >= 0 ? `, ${culprit.kind} ${culprit.index}` : ''})`,
+      );
     if (code === 'internal' && error instanceof Error && process.env.HANDLEBODY_DEBUG) this.#line(error.stack ?? '');
     return exitCodeOf(code);
   }
