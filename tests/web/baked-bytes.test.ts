@@ -3,10 +3,10 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
-import { expect, it, onTestFinished } from 'vitest';
+import { expect, inject, it, onTestFinished } from 'vitest';
 import { readBody, readGlb } from '../../web/assets/index.ts';
 import { bakeGlb } from './support/bake-glb.ts';
-import { launch } from './support/studio.ts';
+import { launch, settled } from './support/studio.ts';
 
 const OPTIONS = { centers: 60, resolution: 48, spheres: 40 };
 
@@ -48,4 +48,20 @@ it('bakes Spot into the same bytes in Node, twice, and in Chromium, twice', asyn
     { glb: spot.toString('base64'), options: OPTIONS },
   );
   expect(inChromium.map((text) => hash(Buffer.from(text, 'base64')))).toEqual([hash(baked), hash(baked)]);
+});
+
+it('asks for the codec only when there is a body to read', async () => {
+  const browser = await launch();
+  onTestFinished(() => browser.close());
+  const page = await browser.newPage();
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(request.url()));
+  const codecs = () => asked.filter((url) => url.includes('meshopt')).length;
+  await page.goto(`${inject('site')}studio/#face`);
+  await page.waitForSelector('#studio[data-state=ready]');
+  await settled(page);
+  expect(codecs()).toBe(0);
+  await page.getByRole('radio', { name: 'Spot' }).check();
+  await page.waitForSelector('#studio[data-model=spot]');
+  expect(codecs()).toBe(1);
 });

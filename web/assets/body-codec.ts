@@ -2,6 +2,7 @@
  * A baked body as the arrays of HANDLEBODY_body, and back, without loss but for the spheres, which are stored as floats. The same body
  * gives the same bytes everywhere. meshoptimizer does the compressing.
  */
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashWords } from '../../wasm/ts/hash.ts';
 import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
 import { loadDecoder, loadEncoder } from './meshopt.ts';
@@ -44,9 +45,23 @@ export interface DecodeBodyInput {
  * The body that was stored.
  *
  * Throws 'body-invalid' when the arrays are damaged or contradict each other, 'body-mismatch' when the body was baked for another mesh,
- * 'wasm-unavailable' when the codec cannot be loaded, and what `mesh` throws. Nothing is allocated that the arrays' own size does not justify.
+ * 'wasm-unavailable' when the codec cannot be loaded, 'out-of-memory', and what `mesh` throws. Nothing is allocated that the arrays' own
+ * size does not justify.
  */
-export async function decodeBody({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
+export async function decodeBody(input: DecodeBodyInput): Promise<BodyData> {
+  try {
+    return await decode(input);
+  } catch (cause) {
+    if (!(cause instanceof RangeError)) throw cause;
+    throw new HandlebodyError('out-of-memory', {
+      message: 'There is not enough memory for the distances of the baked body.',
+      remedy: 'Bake with fewer centers or a lower resolution, or close other pages.',
+      cause,
+    });
+  }
+}
+
+async function decode({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
   const stored = checkStored(arrays, header);
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
