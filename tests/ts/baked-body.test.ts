@@ -3,7 +3,7 @@ import { gzipSync } from 'node:zlib';
 import { Document, Primitive } from '@gltf-transform/core';
 import fc from 'fast-check';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { type BodyData, HandlebodyError, type Irbf, load } from '../../wasm/ts/index.ts';
 import { decodeBody, encodeBody } from '../../web/assets/body-codec.ts';
 import { checkGlb } from '../../web/assets/check-glb.ts';
@@ -260,6 +260,19 @@ describe('a damaged body', async () => {
       }),
       { seed: SEED, numRuns: 400 },
     );
+  });
+
+  it('says so when memory runs out', async () => {
+    const { arrays, arraysHash } = await encodeBody(baked);
+    const full = class {
+      constructor() {
+        throw new RangeError('Array buffer allocation failed');
+      }
+    };
+    vi.stubGlobal('Uint16Array', full);
+    onTestFinished(() => void vi.unstubAllGlobals());
+    const reading = decodeBody({ header: { ...parseBodyHeader(baked), arraysHash }, arrays, mesh: () => baked.mesh });
+    await expect(reading).rejects.toMatchObject({ code: 'out-of-memory' });
   });
 
   it('is refused when its compressed distances are cut, lengthened or those of another body', async () => {

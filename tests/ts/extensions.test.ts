@@ -115,6 +115,12 @@ describe('HANDLEBODY_body', () => {
     expect(await writeGlb(document)).toEqual(bytes);
   });
 
+  it.each(['fast-marching', 'euclidean', 'heat', 'mean-value'])('remembers that its distances are %s ones', async (distance) => {
+    const document = makeScene();
+    await attachBody(document, { ...makeBody(document), distance: distance as BodyData['distance'] });
+    expect((await readBody(await readGlb(await writeGlb(document))))?.distance).toBe(distance);
+  });
+
   it('survives any number of rounds through glTF-Transform when it is registered', async () => {
     const document = makeScene();
     const body = makeBody(document);

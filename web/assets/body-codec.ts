@@ -1,9 +1,11 @@
 /**
  * A baked body as the arrays of HANDLEBODY_body, and back, without loss but for the spheres, which are stored as floats. The same body
- * gives the same bytes everywhere. meshoptimizer does the compressing; it is loaded when the first body is read or written.
+ * gives the same bytes everywhere. meshoptimizer does the compressing.
  */
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashWords } from '../../wasm/ts/hash.ts';
 import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
+import { loadDecoder, loadEncoder } from './meshopt.ts';
 import { addPredictions, fromLanes, predictionMisses, toLanes } from './predict-distances.ts';
 import { bodyInvalid, checkBody, checkStored, type StoredArrays, type StoredHeader } from './schema.ts';
 import { countInRuns, fromRuns, toRuns } from './voxel-runs.ts';
@@ -13,8 +15,7 @@ const VERTEX = 4;
 
 /** The arrays to store, and their hash. `body` was checked by `checkBody`, distances and all. */
 export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays; arraysHash: string }> {
-  const { MeshoptEncoder } = await import('meshoptimizer/encoder');
-  await MeshoptEncoder.ready;
+  const encoder = await loadEncoder();
   const { voxels, centers, grid } = body;
   const order = orderByNearness(body);
   const codes = new Uint16Array(body.distances.length);
@@ -26,7 +27,7 @@ export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays
     voxels: toRuns(voxels),
     centers: Uint32Array.from(centers),
     order,
-    distances: MeshoptEncoder.encodeVertexBufferLevel(bytes, bytes.length / VERTEX, VERTEX, 3, 1),
+    distances: encoder.encodeVertexBufferLevel(bytes, bytes.length / VERTEX, VERTEX, 3, 1),
     spheres: Float32Array.from(body.spheres),
   };
   return { arrays, arraysHash: hashArrays(arrays, lanes) };
@@ -44,9 +45,23 @@ export interface DecodeBodyInput {
  * The body that was stored.
  *
  * Throws 'body-invalid' when the arrays are damaged or contradict each other, 'body-mismatch' when the body was baked for another mesh,
- * and what `mesh` throws. Nothing is allocated that the arrays' own size does not justify.
+ * 'wasm-unavailable' when the codec cannot be loaded, 'out-of-memory', and what `mesh` throws. Nothing is allocated that the arrays' own
+ * size does not justify.
  */
-export async function decodeBody({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
+export async function decodeBody(input: DecodeBodyInput): Promise<BodyData> {
+  try {
+    return await decode(input);
+  } catch (cause) {
+    if (!(cause instanceof RangeError)) throw cause;
+    throw new HandlebodyError('out-of-memory', {
+      message: 'There is not enough memory for the distances of the baked body.',
+      remedy: 'Bake with fewer centers or a lower resolution, or close other pages.',
+      cause,
+    });
+  }
+}
+
+async function decode({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
   const stored = checkStored(arrays, header);
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
@@ -54,13 +69,12 @@ export async function decodeBody({ header: { arraysHash, ...header }, arrays, me
   const body = { ...header, mesh: mesh(), voxels, centers, spheres: Float64Array.from(stored.spheres) };
   checkBody(body);
 
-  const { MeshoptDecoder } = await import('meshoptimizer/decoder');
-  await MeshoptDecoder.ready;
+  const decoder = await loadDecoder();
   const count = centers.length * voxels.length;
   const lanes = new Uint16Array(2 * Math.ceil(count / 2));
   const bytes = new Uint8Array(lanes.buffer);
   try {
-    MeshoptDecoder.decodeVertexBuffer(bytes, bytes.length / VERTEX, VERTEX, stored.distances);
+    decoder.decodeVertexBuffer(bytes, bytes.length / VERTEX, VERTEX, stored.distances);
   } catch (cause) {
     throw bodyInvalid('has distances that cannot be decompressed', cause);
   }

@@ -9,7 +9,7 @@ import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays }
  * The baked body of a document, or undefined when it has none. Its mesh is `readMesh(document).mesh`. Decompressing takes some
  * milliseconds a million distances.
  *
- * Rejects with 'body-version', 'body-invalid' or 'body-mismatch', and what `readMesh` throws.
+ * Rejects with 'body-version', 'body-invalid', 'body-mismatch' or 'wasm-unavailable', and what `readMesh` throws.
  *
  * ```ts
  * const body = await readBody(await readGlb(bytes));

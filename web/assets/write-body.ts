@@ -55,5 +55,6 @@ export function detachBody(document: Document): boolean {
   // A pipeline that removes duplicates may have given an accessor a second use.
   for (const accessor of accessors)
     if (accessor?.listParents().every((parent) => parent === document.getRoot())) accessor.dispose();
+  document.disposeExtension(HANDLEBODY_BODY);
   return true;
 }
