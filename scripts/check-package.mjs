@@ -7,11 +7,14 @@ import { ensureInstalled, npm } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
 import { mustRun, runMain } from './lib/run.mjs';
 
-/** Both entries load, and a refused mesh gives a typed error with a remedy. */
+/** Every entry loads that needs no peer, and a refused mesh gives a typed error with a remedy. */
 const SMOKE = `
 import { HandlebodyError, load } from 'handlebody';
 import { load as loadExternal } from 'handlebody/external';
+import { createIo, readBody } from 'handlebody/gltf-transform';
 
+if ((await readBody(await createIo().readJSON({ json: { asset: { version: '2.0' } }, resources: {} }))) !== undefined)
+  throw new Error('an empty file has a body');
 for (const start of [load, loadExternal]) {
   const hb = await start();
   if (!(hb.memory > 0)) throw new Error('the solver has no memory');

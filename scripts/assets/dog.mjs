@@ -1,6 +1,6 @@
 /** The dog of dm_control's locomotion suite: its `.skn` skin, turned to Y up, with the texture that came with it. */
 import { PACKAGES, readFromPackage } from './fetch.mjs';
-import { smoothNormals, standOnGround } from './mesh.mjs';
+import { coarse, smoothNormals, standOnGround } from './mesh.mjs';
 import { rasterize, shrinkTexture } from './png.mjs';
 
 const SKIN = 'dm_control/suite/dog_assets/dog_skin.skn';
@@ -87,8 +87,9 @@ export function dog() {
   return {
     name: 'dog',
     positions,
-    normals: Float32Array.from(smoothNormals(positions, skin.triangles)),
-    uvs,
+    // A tenth of a degree, and a sixteenth of a texel.
+    normals: coarse(smoothNormals(positions, skin.triangles), 512),
+    uvs: coarse(uvs, 8192),
     triangles: skin.triangles,
     colors: null,
     material: {

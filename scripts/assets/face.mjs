@@ -114,7 +114,7 @@ export async function faceDocument() {
 
   const { attachPoseSpace } = await import('../../dist/web/assets/index.js');
   attachPoseSpace(document, mesh, {
-    version: 0,
+    version: 1,
     dimensions: [
       { name: 'valence', min: -1, max: 1 },
       { name: 'arousal', min: -1, max: 1 },

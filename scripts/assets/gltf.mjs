@@ -1,5 +1,5 @@
 /** Models to glTF-Transform documents, and documents to bytes. */
-import { Document, Logger } from '@gltf-transform/core';
+import { Document, Logger, VertexLayout } from '@gltf-transform/core';
 
 /** What every document starts from. The generator names no version and no time: the same input gives the same bytes. */
 export function newDocument() {
@@ -63,5 +63,7 @@ export function plainGlb(model) {
 export async function toBytes(document) {
   const { createIo } = await import('../../dist/web/assets/index.js');
   // A sparse accessor that is more than half full is worth a warning in general; a face unit of a small part is often one.
-  return createIo().setLogger(new Logger(Logger.Verbosity.ERROR)).writeBinary(document);
+  // Attributes one after another compress better than vertex by vertex: the dog's by a fifth.
+  const io = createIo().setLogger(new Logger(Logger.Verbosity.ERROR)).setVertexLayout(VertexLayout.SEPARATE);
+  return io.writeBinary(document);
 }

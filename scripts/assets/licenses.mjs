@@ -24,7 +24,7 @@ Made by \`npm run assets\` (\`scripts/assets/\`) from packages fetched by name, 
 
 - **Source**: ${origin(PACKAGES.dmControl)}, \`dm_control/suite/dog_assets/dog_skin.skn\` and \`skin_texture.png\`: © The dm_control Authors (Google DeepMind).
 - **Licence**: **Apache License 2.0**; a copy is beside this file, \`LICENSE-dog.txt\`.
-- **Changed**: bones dropped; turned from Z up to Y up; scaled and stood on the ground; normals computed; the texture reduced to 512 × 512, filled out beyond its islands, and painted in the eye sockets and the mouth, where the source has none. Interior distances, centers and spheres (\`HANDLEBODY_body\`) are computed by this project.
+- **Changed**: bones dropped; turned from Z up to Y up; scaled and stood on the ground; normals computed; texture coordinates rounded to 1/8192; the texture reduced to 512 × 512, filled out beyond its islands, and painted in the eye sockets and the mouth, where the source has none. Interior distances, centers and spheres (\`HANDLEBODY_body\`) are computed by this project.
 
 ## spot.glb
 

@@ -33,7 +33,7 @@ const RECIPES = {
  * @type {Record<string, { centers: number, resolution: number, spheres: number }>}
  */
 const BAKES = {
-  dog: { centers: 300, resolution: 96, spheres: 120 },
+  dog: { centers: 200, resolution: 96, spheres: 120 },
   spot: { centers: 150, resolution: 40, spheres: 80 },
 };
 
@@ -47,7 +47,7 @@ async function bakedBytes(name, document) {
   if (!options) return toBytes(document);
   const { load } = await import('../../dist/wasm/ts/index.js');
   const { attachBody, readMesh } = await import('../../dist/web/assets/index.js');
-  attachBody(document, await (await load()).bake(readMesh(document).mesh, options));
+  await attachBody(document, await (await load()).bake(readMesh(document).mesh, options));
   return toBytes(document);
 }
 

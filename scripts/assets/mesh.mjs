@@ -74,6 +74,15 @@ export function smoothNormals(positions, triangles, weld = weldExact(positions))
 }
 
 /**
+ * To multiples of 1/parts: floats of few digits, which compress to less.
+ * @param {ArrayLike<number>} numbers
+ * @param {number} parts A power of two.
+ */
+export function coarse(numbers, parts) {
+  return Float32Array.from(numbers, (value) => Math.round(value * parts) / parts);
+}
+
+/**
  * The bounding box, as the least and greatest corner.
  * @param {ArrayLike<number>} positions
  * @returns {{ min: [number, number, number], max: [number, number, number] }}

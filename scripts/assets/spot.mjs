@@ -1,7 +1,7 @@
 /** Spot the cow: a binary PLY of geometry-central's tests, inside potpourri3d's source package. */
 import { between, mixColor } from './face/color.mjs';
 import { PACKAGES, readFromPackage } from './fetch.mjs';
-import { smoothNormals, standOnGround } from './mesh.mjs';
+import { coarse, smoothNormals, standOnGround } from './mesh.mjs';
 
 const PLY = 'potpourri3d-1.4.0/deps/geometry-central/test/assets/spot.ply';
 
@@ -101,7 +101,7 @@ export function spot() {
   return {
     name: 'spot',
     positions,
-    normals: Float32Array.from(smoothNormals(positions, ply.triangles)),
+    normals: coarse(smoothNormals(positions, ply.triangles), 512),
     uvs: null,
     triangles: ply.triangles,
     colors: coat(positions),

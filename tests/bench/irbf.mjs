@@ -21,7 +21,7 @@ const ROUNDS = 5;
 export async function benchIrbf() {
   await mustRun(process.execPath, [at('scripts', 'build.mjs')]);
   const { readBody, readGlb } = await import('../../dist/web/assets/index.js');
-  const body = readBody(await readGlb(readFileSync(SETUP.model)));
+  const body = await readBody(await readGlb(readFileSync(SETUP.model)));
   if (!body) throw new Error('The model carries no body.');
   const folder = mkdtempSync(path.join(tmpdir(), 'handlebody-bench-'));
   try {

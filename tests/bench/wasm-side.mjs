@@ -18,7 +18,7 @@ function leastMilliseconds(repetitions, run) {
 const started = performance.now();
 const hb = await load();
 const loaded = performance.now() - started;
-const body = readBody(await readGlb(readFileSync(SETUP.model)));
+const body = await readBody(await readGlb(readFileSync(SETUP.model)));
 if (!body) throw new Error('The model carries no body.');
 
 let irbf = hb.irbf(body);

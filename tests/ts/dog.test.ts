@@ -85,10 +85,11 @@ describe('the dog, as served', () => {
     }
   });
 
+  // With 200 centers, where the above has 400.
   it('lifts a paw about as well', () => {
     const result = liftPaw(served);
     expect(result.landing).toBeLessThan(1e-3);
-    expect(result.otherLeg).toBeLessThan(0.02);
+    expect(result.otherLeg).toBeLessThan(0.03);
     expect(Math.abs(result.volume - 1)).toBeLessThan(0.01);
   });
 

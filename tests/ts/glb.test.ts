@@ -179,6 +179,16 @@ describe('readMesh', () => {
     expect([...mesh.triangles]).toEqual([0, 1, 2, 3, 4, 5]);
   });
 
+  it('reads a scene of nothing but points as a cloud', async () => {
+    const cloud = (x: number) => ({ positions: [x, 0, 0, x, 1, 0, x, 0, 1], indices: [2, 1], mode: POINTS as number });
+    const { mesh, ranges } = readMesh(await readGlb(await writeGlb(makeDocument([cloud(0), cloud(1)], [cloud(2)]))));
+    expect(mesh.triangles).toEqual(new Uint32Array());
+    expect([...mesh.positions]).toEqual([0, 1, 2].flatMap((x) => cloud(x).positions));
+    expect(ranges.map(({ start, count, triangleCount }) => [start, count, triangleCount])).toEqual(
+      [0, 3, 6].map((at) => [at, 3, 0]),
+    );
+  });
+
   it('decodes quantized positions and leaves skinned ones in their bind space', async () => {
     const document = makeDocument([TETRAHEDRON]);
     const primitive = document.getRoot().listMeshes()[0]?.listPrimitives()[0];
@@ -219,7 +229,11 @@ describe('readMesh', () => {
     const error = await codeOf(() => readMesh(makeDocument([triangle(0), stray])));
     expect(error.code).toBe('mesh-index-out-of-range');
     expect(error.culprit).toEqual({ kind: 'triangle', index: 2 });
-    for (const document of [new Document(), makeDocument(), makeDocument([{ positions: [1, 2, 3], mode: POINTS as number }])]) {
+    for (const document of [
+      new Document(),
+      makeDocument(),
+      makeDocument([{ positions: [1, 2, 3, 4, 5, 6], mode: LINES as number }]),
+    ]) {
       expect((await codeOf(() => readMesh(document))).code).toBe('mesh-no-triangles');
     }
   });
@@ -330,7 +344,7 @@ async function tryAll(bytes: Uint8Array): Promise<string> {
     const document = await readGlb(bytes);
     readPoseSpaces(document);
     readMesh(document);
-    readBody(document);
+    await readBody(document);
     return 'read';
   } catch (error) {
     if (error instanceof HandlebodyError) return error.code;
@@ -341,8 +355,9 @@ async function tryAll(bytes: Uint8Array): Promise<string> {
 describe('hostile files', async () => {
   const document = makeDocument([TETRAHEDRON, triangle(2)], [triangle(3)]);
   const { mesh } = readMesh(document);
-  attachBody(document, {
-    version: 0,
+  await attachBody(document, {
+    version: 1,
+    distance: 'fast-marching',
     mesh,
     positionsHash: hashPositions(mesh.positions),
     normalization: { center: [0, 0, 0], diagonal: 2 },
@@ -354,7 +369,7 @@ describe('hostile files', async () => {
     spheres: Float64Array.of(0.25, 0.25, 0.25, 0.125),
   });
   attachPoseSpace(document, document.getRoot().listMeshes()[0] as Mesh, {
-    version: 0,
+    version: 1,
     dimensions: [{ name: 'valence', min: -1, max: 1 }],
     examples: [{ name: 'neutral', at: [0], weights: [] }],
   });

@@ -26,7 +26,8 @@ it('deforms as the equations of paper 001 do when they are solved directly', asy
     }
   }
   const body: BodyData = {
-    version: 0,
+    version: 1,
+    distance: 'euclidean',
     mesh: { positions, triangles: Uint32Array.from(oracle.triangles) },
     positionsHash: hashPositions(positions),
     normalization,

@@ -64,7 +64,8 @@ function makeScene(): Document {
 function makeBody(document: Document): BodyData {
   const { mesh } = readMesh(document);
   return {
-    version: 0,
+    version: 1,
+    distance: 'fast-marching',
     mesh,
     positionsHash: hashPositions(mesh.positions),
     normalization: { center: [0.1, 0.2, 0.3], diagonal: 7 },
@@ -86,7 +87,7 @@ describe('handlebodyPlugin', () => {
   it('gives the body with every number it had, and the mesh that glTF-Transform reads', async () => {
     const document = makeScene();
     const body = makeBody(document);
-    attachBody(document, body);
+    await attachBody(document, body);
     const { body: loaded, poseSpaces } = handlebodyData(await load(await writeGlb(document)));
     expect(loaded).toEqual(body);
     expect(poseSpaces).toEqual([]);
@@ -103,7 +104,7 @@ describe('handlebodyPlugin', () => {
 
   it('owns its arrays: posting one to a worker takes nothing else along', async () => {
     const document = makeScene();
-    attachBody(document, makeBody(document));
+    await attachBody(document, makeBody(document));
     const { body } = handlebodyData(await load(await writeGlb(document)));
     for (const array of [body?.voxels, body?.centers, body?.distances, body?.spheres, body?.mesh.positions]) {
       expect(array?.buffer.byteLength).toBe(array?.byteLength);
@@ -113,7 +114,7 @@ describe('handlebodyPlugin', () => {
   it('finds the meshes of a pose space', async () => {
     const document = makeScene();
     const space = {
-      version: 0 as const,
+      version: 1 as const,
       dimensions: [{ name: 'valence', min: -1, max: 1 }],
       examples: [{ name: 'happy', at: [0.8], weights: [1] }],
     };
@@ -134,10 +135,10 @@ describe('handlebodyPlugin', () => {
     ],
     ['body-version', 'is of another version', (_, body) => void body.setHeader({ ...body.getHeader(), version: 3 })],
     ['body-invalid', 'has lost an array', (_, body) => void body.setAccessor('voxels', null)],
-    ['body-invalid', 'has too few distances', (_, body) => void body.getAccessor('distances')?.setArray(new Uint16Array(8))],
+    ['body-invalid', 'has too few distances', (_, body) => void body.getAccessor('distances')?.setArray(new Uint8Array(8))],
   ])('fails with %s when the body %s', async (code, _, change) => {
     const document = makeScene();
-    attachBody(document, makeBody(document));
+    await attachBody(document, makeBody(document));
     change(document, document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY) as BodyProperty);
     const error = await load(await writeGlb(document)).then(
       () => undefined,

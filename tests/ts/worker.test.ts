@@ -53,7 +53,8 @@ const MESH: Mesh = {
 const fakeBake: Bake = async (mesh, { onProgress, centers = 2 }) => {
   for (const part of [0.25, 0.5, 1]) onProgress?.(part);
   return {
-    version: 0,
+    version: 1,
+    distance: 'fast-marching',
     mesh,
     positionsHash: hashPositions(mesh.positions),
     normalization: { center: [0.5, 0.5, 0.5], diagonal: Math.sqrt(3) },

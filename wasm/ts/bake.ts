@@ -40,7 +40,7 @@ export async function bake(heap: Heap, mesh: Mesh, options: BakeOptions): Promis
   });
   try {
     await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), options);
-    return readBody(heap, handle, mesh);
+    return { ...readBody(heap, handle, mesh), distance };
   } finally {
     heap.call((e) => e.hb_bake_free(handle));
   }
@@ -60,7 +60,7 @@ export function checkMeshArrays(mesh: Mesh): void {
   }
 }
 
-function readBody(heap: Heap, bake: number, mesh: Mesh): BodyData {
+function readBody(heap: Heap, bake: number, mesh: Mesh): Omit<BodyData, 'distance'> {
   const layout = LAYOUT.hb_body;
   return heap.scope((scratch) => {
     const body = scratch.reserve(layout.sizeof);
@@ -70,7 +70,7 @@ function readBody(heap: Heap, bake: number, mesh: Mesh): BodyData {
     const word = (offset: number) => heap.u32(body + offset, 1)[0] ?? 0;
     const [voxels, centers, spheres] = [word(layout.voxel_count), word(layout.center_count), word(layout.sphere_count)];
     return {
-      version: 0,
+      version: 1,
       mesh,
       positionsHash: hashPositions(mesh.positions),
       normalization: { center: triple(layout.center), diagonal: double(layout.diagonal) },

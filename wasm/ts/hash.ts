@@ -4,13 +4,19 @@
  */
 export function hashPositions(positions: Float32Array | Float64Array): string {
   const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
-  const words = new Uint32Array(floats.buffer, floats.byteOffset, floats.length);
+  return hashWords([new Uint32Array(floats.buffer, floats.byteOffset, floats.length)]);
+}
+
+/** The same of any words, one array after another. */
+export function hashWords(arrays: readonly Uint32Array[]): string {
   // Two 32-bit lanes with different offsets and primes: BigInt arithmetic would take seconds on a large model.
   let low = 0x811c9dc5;
   let high = 0xcbf29ce4;
-  for (const word of words) {
-    low = Math.imul(low ^ word, 0x01000193);
-    high = Math.imul(high ^ word, 0x01000197) ^ (low >>> 15);
+  for (const words of arrays) {
+    for (const word of words) {
+      low = Math.imul(low ^ word, 0x01000193);
+      high = Math.imul(high ^ word, 0x01000197) ^ (low >>> 15);
+    }
   }
   const hex = (n: number) => (n >>> 0).toString(16).padStart(8, '0');
   return hex(high) + hex(low);

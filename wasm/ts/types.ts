@@ -12,8 +12,9 @@ export interface Mesh {
  * solver space: (position − normalization.center) / normalization.diagonal.
  */
 export interface BodyData {
-  readonly version: 0;
+  readonly version: 1;
   readonly mesh: Mesh;
+  readonly distance: DistanceMethod;
   /** Hash of the positions that the distances were computed for; see `hashPositions`. */
   readonly positionsHash: string;
   readonly normalization: { readonly center: readonly [number, number, number]; readonly diagonal: number };

@@ -1,20 +1,4 @@
-/**
- * The glTF extension HANDLEBODY_body, on the root of a file: the baked interior of the default scene. In JSON, format version 0:
- *
- *   "extensions": { "HANDLEBODY_body": {
- *     "version": 0,
- *     "positionsHash": "0123456789abcdef",
- *     "normalization": { "center": [x, y, z], "diagonal": d },
- *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
- *     "distanceScale": s,
- *     "voxels": accessor, "centers": accessor,   unsigned int SCALAR
- *     "distances": accessor,                     unsigned short SCALAR, centers × voxels
- *     "spheres": accessor                        float VEC4: center xyz, radius
- *   } }
- *
- * Solver space is scene space after node transforms, scaled to a unit diagonal; vertices are numbered through the triangle primitives of
- * the default scene in order. The extension is optional: viewers that do not know it show the model as it is.
- */
+/** The glTF extension HANDLEBODY_body for glTF-Transform. What stands in the file: `schema.ts`. */
 import {
   type Accessor,
   Extension,
@@ -32,6 +16,7 @@ interface IBodyProperty {
   header: Record<string, unknown>;
   voxels: Accessor;
   centers: Accessor;
+  order: Accessor;
   distances: Accessor;
   spheres: Accessor;
 }
@@ -52,7 +37,10 @@ export class BodyProperty extends ExtensionProperty<IBodyProperty> {
   }
 
   protected override getDefaults(): Nullable<IBodyProperty> {
-    return Object.assign(super.getDefaults(), { header: {}, voxels: null, centers: null, distances: null, spheres: null });
+    return Object.assign(super.getDefaults(), {
+      header: {},
+      ...Object.fromEntries(NAMES.map((name) => [name, null])),
+    });
   }
 
   /** All but the accessors, as the JSON has it: not yet checked, see `parseBodyHeader`. */
@@ -88,7 +76,7 @@ export class BodyExtension extends Extension {
     return new BodyProperty(this.document.getGraph());
   }
 
-  /** Takes what is there, so that a damaged body does not keep the model from opening; `readBody` checks it. */
+  /** Takes what is there, compressed as it is, so that a damaged body does not keep the model from opening; `readBody` checks it. */
   override read(context: ReaderContext): this {
     const json = (context.jsonDoc.json.extensions as Record<string, unknown> | undefined)?.[HANDLEBODY_BODY];
     if (typeof json !== 'object' || json === null) return this;

@@ -10,8 +10,8 @@ import { determinant3, IDENTITY, isIdentity, type Matrix, type Sixteen } from '.
 export const MAX_VERTICES = 1 << 24;
 const MAX_TRIANGLES = 1 << 25;
 
-/** Topology numbers as in glTF: triangles, strip, fan. */
-export type TriangleMode = 4 | 5 | 6;
+/** Topology numbers as in glTF: points, triangles, strip, fan. */
+export type PartMode = 0 | 4 | 5 | 6;
 
 /** A primitive in its own space. */
 export interface MeshPart {
@@ -19,7 +19,7 @@ export interface MeshPart {
   readonly positions: Float32Array;
   /** Vertices in drawing order; without it, as stored. */
   readonly indices?: ArrayLike<number> | undefined;
-  readonly mode?: TriangleMode;
+  readonly mode?: PartMode;
   /** From the part's space to the mesh's: 16 numbers, column-major. */
   readonly matrix?: Matrix;
 }
@@ -36,6 +36,8 @@ export interface MeshRange {
  * Vertices in the order of the parts, transformed; triangles renumbered, and turned round where a matrix mirrors, so that they stay
  * counter-clockwise seen from outside. Left-over indices that make no whole triangle are ignored, as a renderer does.
  *
+ * Parts that are all points give a cloud: a mesh without triangles.
+ *
  * Throws 'mesh-no-triangles', 'mesh-too-large', or 'mesh-index-out-of-range' naming the triangle.
  */
 export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: MeshRange[] } {
@@ -43,16 +45,17 @@ export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: M
   const ranges = parts.map(({ positions, indices, mode = 4 }) => {
     const count = positions.length / 3;
     const corners = indices?.length ?? count;
-    const triangleCount = mode === 4 ? Math.floor(corners / 3) : Math.max(corners - 2, 0);
+    const triangleCount = mode === 0 ? 0 : mode === 4 ? Math.floor(corners / 3) : Math.max(corners - 2, 0);
     const range = { start: vertices, count, firstTriangle: triangles, triangleCount };
     vertices += count;
     triangles += triangleCount;
     return range;
   });
-  if (triangles === 0) {
+  const isCloud = vertices > 0 && parts.every(({ mode }) => mode === 0);
+  if (triangles === 0 && !isCloud) {
     throw new HandlebodyError('mesh-no-triangles', {
       message: 'The scene has no triangles.',
-      remedy: 'Use a model with a surface: points, lines and empty scenes have no inside.',
+      remedy: 'Use a model with a surface or a point cloud: lines and empty scenes have no inside.',
     });
   }
   if (vertices > MAX_VERTICES || triangles > MAX_TRIANGLES) {

@@ -1,14 +1,4 @@
-/**
- * The glTF extension HANDLEBODY_pose_space, on a mesh: where in a pose space its morph targets' weights lie. In JSON, format version 0:
- *
- *   "extensions": { "HANDLEBODY_pose_space": {
- *     "version": 0,
- *     "dimensions": [ { "name": "valence", "min": -1, "max": 1 }, … ],
- *     "examples": [ { "name": "happy", "at": [0.83, 0.53], "weights": [one a morph target] }, … ]
- *   } }
- *
- * The extension is optional: viewers that do not know it show the mesh with its own weights.
- */
+/** The glTF extension HANDLEBODY_pose_space for glTF-Transform. What stands in the file: `pose-space-schema.ts`. */
 import {
   Extension,
   ExtensionProperty,

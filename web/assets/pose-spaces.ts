@@ -1,6 +1,7 @@
 import type { Document, Mesh } from '@gltf-transform/core';
 import { PoseSpaceExtension, type PoseSpaceProperty } from './pose-space-extension.ts';
-import { HANDLEBODY_POSE_SPACE, type PoseSpaceData, parsePoseSpace } from './schema.ts';
+import { type PoseSpaceData, type PoseSpaceInput, parsePoseSpace, poseSpaceDefinition } from './pose-space-schema.ts';
+import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 
 /**
  * Gives a mesh a pose space, in place of one that it has.
@@ -9,16 +10,17 @@ import { HANDLEBODY_POSE_SPACE, type PoseSpaceData, parsePoseSpace } from './sch
  *
  * ```ts
  * attachPoseSpace(document, face, {
- *   version: 0,
+ *   version: 1,
  *   dimensions: [{ name: 'valence', min: -1, max: 1 }],
- *   examples: [{ name: 'happy', at: [0.8], weights: [1, 0] }],
+ *   examples: [{ name: 'happy', at: [0.8], weights: [1, 0] }, { name: 'sad', at: [-0.6], target: 1 }],
  * });
  * ```
  */
-export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceData): PoseSpaceProperty {
-  const checked = parsePoseSpace(poseSpace, { targetCount: morphTargetCount(mesh) });
+export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceInput): PoseSpaceProperty {
+  const definition = poseSpaceDefinition(poseSpace);
+  parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) });
   mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE)?.dispose();
-  const property = document.createExtension(PoseSpaceExtension).createPoseSpace().setDefinition(checked);
+  const property = document.createExtension(PoseSpaceExtension).createPoseSpace().setDefinition(definition);
   mesh.setExtension(HANDLEBODY_POSE_SPACE, property);
   return property;
 }

@@ -1,7 +1,7 @@
 import type { Document, mat4, Node, Primitive } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { concatenate, MAX_VERTICES, type MeshPart, type MeshRange, type TriangleMode } from './concatenate.ts';
+import { concatenate, MAX_VERTICES, type MeshPart, type MeshRange, type PartMode } from './concatenate.ts';
 import { composeMatrix, IDENTITY, type Matrix, multiplyMatrices } from './transform.ts';
 
 /** Which primitive of which node gave a range of vertices and triangles. */
@@ -14,8 +14,8 @@ export interface PrimitiveRange extends MeshRange {
 
 /**
  * The triangles of the default scene (or the first) as one mesh in scene space: nodes depth-first in file order, the primitives of a
- * mesh in order; a mesh that hangs at two nodes counts twice. Points, lines and primitives without positions are skipped and take no
- * vertex numbers; morph targets are at rest.
+ * mesh in order; a mesh that hangs at two nodes counts twice. Lines and primitives without positions are skipped and take no vertex
+ * numbers, and so do points, unless the scene has nothing else: then it is a cloud, a mesh without triangles. Morph targets are at rest.
  *
  * A skinned primitive is taken as stored: its node's transform does not move it (glTF 2.0, 3.7.3.3), and it is deformed before skinning.
  *
@@ -27,8 +27,7 @@ export interface PrimitiveRange extends MeshRange {
  * ```
  */
 export function readMesh(document: Document): { mesh: Mesh; ranges: PrimitiveRange[] } {
-  const parts: MeshPart[] = [];
-  const sources: { node: Node; primitive: Primitive; matrix: Matrix }[] = [];
+  const found: { part: MeshPart; source: { node: Node; primitive: Primitive; matrix: Matrix } }[] = [];
   const root = document.getRoot();
   const scene = root.getDefaultScene() ?? root.listScenes()[0];
   const stored = new Map<Primitive, Float32Array>();
@@ -43,25 +42,22 @@ export function readMesh(document: Document): { mesh: Mesh; ranges: PrimitiveRan
     const matrix = multiplyMatrices(parent, localMatrix(node));
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const mode = primitive.getMode();
-      if (mode < 4 || mode > 6 || !primitive.getAttribute('POSITION')) continue;
+      if ((mode !== 0 && (mode < 4 || mode > 6)) || !primitive.getAttribute('POSITION')) continue;
       const positions = stored.get(primitive) ?? readPositions(primitive);
       stored.set(primitive, positions);
       vertices += positions.length / 3;
       if (vertices > 2 * MAX_VERTICES) break; // concatenate() refuses it; no need to collect more
       const skinned = node.getSkin() && primitive.getAttribute('JOINTS_0') && primitive.getAttribute('WEIGHTS_0');
       const source = { node, primitive, matrix: skinned ? IDENTITY : matrix };
-      parts.push({
-        positions,
-        indices: primitive.getIndices()?.getArray() ?? undefined,
-        mode: mode as TriangleMode,
-        matrix: source.matrix,
-      });
-      sources.push(source);
+      const indices = primitive.getIndices()?.getArray() ?? undefined;
+      found.push({ part: { positions, indices, mode: mode as PartMode, matrix: source.matrix }, source });
     }
     for (const child of node.listChildren().reverse()) stack.push({ node: child, parent: matrix as mat4 });
   }
-  const { mesh, ranges } = concatenate(parts);
-  return { mesh, ranges: ranges.map((range, i) => ({ ...range, ...(sources[i] as (typeof sources)[number]) })) };
+  const surface = found.filter(({ part }) => part.mode !== 0);
+  const taken = surface.length > 0 ? surface : found;
+  const { mesh, ranges } = concatenate(taken.map(({ part }) => part));
+  return { mesh, ranges: ranges.map((range, i) => ({ ...range, ...(taken[i] as (typeof taken)[number]).source })) };
 }
 
 /**

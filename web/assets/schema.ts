@@ -1,44 +1,73 @@
 /**
- * The two extensions of Handlebody as they stand in a file's JSON, and the checks that turn what a file says into data to be trusted.
- * Needs neither glTF-Transform nor three.js: both readers use it.
+ * HANDLEBODY_body as it stands in a file, format version 1, and the checks that turn what a file says into data to be trusted. Needs
+ * neither glTF-Transform nor three.js: both readers use it.
+ *
+ *   "extensions": { "HANDLEBODY_body": {
+ *     "version": 1,
+ *     "distance": "fast-marching",
+ *     "positionsHash": "0123456789abcdef",
+ *     "normalization": { "center": [x, y, z], "diagonal": d },
+ *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
+ *     "distanceScale": s,
+ *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
+ *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
+ *     "centers": accessor,     unsigned int SCALAR: vertices
+ *     "order": accessor,       unsigned int SCALAR: the center that the k-th stored row of distances is of
+ *     "distances": accessor,   unsigned byte SCALAR: compressed, see `predict-distances.ts`
+ *     "spheres": accessor      float VEC4: center xyz, radius
+ *   } }
+ *
+ * Solver space is scene space after node transforms, scaled to a unit diagonal; vertices are numbered through the triangle primitives of
+ * the default scene in order, or through its points when it has no triangles. The extension is optional: viewers that do not know it
+ * show the model as it is.
  */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
-import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
-import { type GltfJson, isObject } from './gltf-json.ts';
+import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
+import { asObject, isNumber, show } from './gltf-json.ts';
+import { countInRuns } from './voxel-runs.ts';
 
 /** Root extension: the baked interior of the default scene. */
 export const HANDLEBODY_BODY = 'HANDLEBODY_body';
 /** Mesh extension: places of morph-target weights in a pose space. */
 export const HANDLEBODY_POSE_SPACE = 'HANDLEBODY_pose_space';
 
-/** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
-export type BodyHeader = Pick<BodyData, 'version' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
+/** The format that is written and read. */
+export const BODY_VERSION = 1;
 
-/** The arrays of a body, as its accessors hold them. */
-export interface BodyArrays {
-  readonly voxels: Uint32Array;
-  readonly centers: Uint32Array;
-  readonly distances: Uint16Array;
-  /** spheres × 4: center xyz, radius. */
-  readonly spheres: Float32Array | Float64Array;
+const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
+
+/** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
+export type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
+
+/** The same in a file. */
+export interface StoredHeader extends BodyHeader {
+  readonly arraysHash: string;
 }
 
-/** Accessor names in the extension's JSON, their types and component types: unsigned int, unsigned short, float. */
+/** The arrays of a body, as its accessors hold them. */
+export interface StoredArrays {
+  readonly voxels: Uint32Array;
+  readonly centers: Uint32Array;
+  readonly order: Uint32Array;
+  readonly distances: Uint8Array;
+  readonly spheres: Float32Array;
+}
+
+/** Accessor names in the extension's JSON, their types and component types. */
 export const BODY_ACCESSORS = {
   voxels: { type: 'SCALAR', array: Uint32Array },
   centers: { type: 'SCALAR', array: Uint32Array },
-  distances: { type: 'SCALAR', array: Uint16Array },
+  order: { type: 'SCALAR', array: Uint32Array },
+  distances: { type: 'SCALAR', array: Uint8Array },
   spheres: { type: 'VEC4', array: Float32Array },
 } as const;
 
-/** Examples of a pose space over a mesh's morph targets. */
-export interface PoseSpaceData {
-  readonly version: 0;
-  readonly dimensions: readonly { readonly name: string; readonly min: number; readonly max: number }[];
-  /** `at`: one number a dimension; `weights`: one a morph target. */
-  readonly examples: readonly { readonly name: string; readonly at: readonly number[]; readonly weights: readonly number[] }[];
-}
+/** Bodies of more voxels or codes (an eighth and a quarter of a gigabyte) are neither written nor read. */
+const MAX_VOXELS = 1 << 25;
+const MAX_CODES = 1 << 27;
+/** meshoptimizer's codec writes a byte at least for 256 vertices, which are 512 codes: no sound stream holds more. */
+const CODES_PER_BYTE = 512;
 
 /**
  * Reads a body's numbers from the extension's JSON.
@@ -47,16 +76,18 @@ export interface PoseSpaceData {
  */
 export function parseBodyHeader(json: unknown): BodyHeader {
   const body = asObject(json) ?? {};
-  if (body.version !== 0) {
+  if (body.version !== BODY_VERSION) {
+    const former = isNumber(body.version) && body.version < BODY_VERSION;
     throw new HandlebodyError('body-version', {
-      message: `The baked body has format version ${JSON.stringify(body.version)}; this release reads version 0.`,
-      remedy: 'Bake the model again with this release, or update Handlebody.',
+      message: `The baked body has format version ${show(body.version)}; this release reads version ${BODY_VERSION}.`,
+      remedy: former ? 'Bake the model again with this release.' : 'Update Handlebody, or bake the model again with this release.',
     });
   }
   const normalization = asObject(body.normalization) ?? {};
   const grid = asObject(body.grid) ?? {};
   const header = {
-    version: 0 as const,
+    version: BODY_VERSION as typeof BODY_VERSION,
+    distance: body.distance as DistanceMethod,
     positionsHash: body.positionsHash as string,
     normalization: { center: triple(normalization.center, 'center'), diagonal: positive(normalization.diagonal, 'diagonal') },
     grid: {
@@ -66,37 +97,71 @@ export function parseBodyHeader(json: unknown): BodyHeader {
     },
     distanceScale: body.distanceScale as number,
   };
+  if (!METHODS.includes(header.distance)) throw bodyInvalid(`has distances of no known method, ${show(body.distance)}`);
   if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw bodyInvalid('has no hash of its positions');
   if (!isNumber(header.distanceScale) || header.distanceScale < 0) throw bodyInvalid('has no distance scale');
-  const voxels = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
-  if (voxels < 1 || voxels > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
+  const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
+  if (cells < 1 || cells > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
   return header;
 }
 
+/** The same out of a file, with the hash of the arrays. */
+export function parseStoredHeader(json: unknown): StoredHeader {
+  const header = parseBodyHeader(json);
+  const { arraysHash } = asObject(json) ?? {};
+  if (typeof arraysHash !== 'string') throw bodyInvalid('has no hash of its arrays');
+  return { ...header, arraysHash };
+}
+
 /**
- * Puts a body together and checks that its arrays fit each other and the mesh.
+ * Checks arrays out of a file as far as can be without the mesh, above all the sizes that they ask to be allocated.
+ *
+ * Throws 'body-invalid'.
+ */
+export function checkStored(arrays: { readonly [name in keyof StoredArrays]?: unknown }, { grid }: BodyHeader): StoredArrays {
+  for (const [name, { array }] of Object.entries(BODY_ACCESSORS)) {
+    if (arrays[name as keyof StoredArrays] instanceof array) continue;
+    throw bodyInvalid(`has no ${name}, or not as numbers of the right type`);
+  }
+  const stored = arrays as StoredArrays;
+  const { centers, order, distances } = stored;
+  const voxels = countInRuns(stored.voxels, gridSize(grid));
+  if (Number.isNaN(voxels)) throw bodyInvalid('has voxels that are no ascending runs inside its grid');
+  checkCount(voxels, centers.length);
+  if (voxels * centers.length > CODES_PER_BYTE * distances.length) {
+    throw bodyInvalid(`has ${distances.length} bytes of distances, too few for ${centers.length} centers × ${voxels} voxels`);
+  }
+  const seen = new Uint8Array(centers.length);
+  for (const center of order) {
+    if (center >= seen.length || seen[center] === 1) throw bodyInvalid('stores the distances of a center twice');
+    seen[center] = 1;
+  }
+  if (order.length !== centers.length) throw bodyInvalid('lacks the distances of a center');
+  return stored;
+}
+
+/**
+ * Checks that the arrays of a body fit each other and its mesh.
  *
  * Throws 'body-invalid' when they contradict each other, 'body-mismatch' when the body was baked for another mesh.
  */
-export function assembleBody({ header, arrays, mesh }: { header: BodyHeader; arrays: BodyArrays; mesh: Mesh }): BodyData {
-  const { voxels, centers, distances } = arrays;
-  for (const [name, { array }] of Object.entries(BODY_ACCESSORS)) {
-    const given: unknown = arrays[name as keyof BodyArrays];
-    if (given instanceof array || (name === 'spheres' && given instanceof Float64Array)) continue;
-    throw bodyInvalid(`has no ${name}, or not as numbers of the right type`);
+export function checkBody(body: Omit<BodyData, 'distances'> & { readonly distances?: Uint16Array }): void {
+  const { voxels, centers, distances, spheres, grid, mesh } = body;
+  for (const [name, array] of Object.entries({ voxels: Uint32Array, centers: Uint32Array, spheres: Float64Array })) {
+    if (!(body[name as 'voxels'] instanceof array)) throw bodyInvalid(`has no ${name}, or not as numbers of the right type`);
   }
-  if (voxels.length === 0 || centers.length === 0) throw bodyInvalid('is empty');
-  if (distances.length !== centers.length * voxels.length) {
-    throw bodyInvalid(`has ${distances.length} distances for ${centers.length} centers × ${voxels.length} voxels`);
+  checkCount(voxels.length, centers.length);
+  if ('distances' in body && (!(distances instanceof Uint16Array) || distances.length !== centers.length * voxels.length)) {
+    throw bodyInvalid(`has ${distances?.length} distances for ${centers.length} centers × ${voxels.length} voxels`);
   }
-  const end = header.grid.dimensions.reduce((product, n) => product * n, 1);
+  const end = gridSize(grid);
   for (let i = 0, previous = -1; i < voxels.length; i++) {
     const voxel = voxels[i] as number;
     if (voxel <= previous || voxel >= end) throw bodyInvalid(`has voxel ${voxel} out of order or outside its grid`);
     previous = voxel;
   }
   // Before the centers: a body of another mesh is likely to name vertices that this one has not, and that is the better story.
-  if (hashPositions(mesh.positions) !== header.positionsHash) {
+  if (hashPositions(mesh.positions) !== body.positionsHash) {
     throw new HandlebodyError('body-mismatch', {
       message: 'The interior distances were baked for other vertex positions than this model has.',
       remedy: 'Bake the model again after its last change: bake last.',
@@ -105,75 +170,24 @@ export function assembleBody({ header, arrays, mesh }: { header: BodyHeader; arr
   const vertices = mesh.positions.length / 3;
   const stray = centers.find((vertex) => vertex >= vertices);
   if (stray !== undefined) throw bodyInvalid(`has a center on vertex ${stray} of ${vertices}`);
-  const spheres = Float64Array.from(arrays.spheres);
   if (spheres.length % 4 !== 0 || spheres.some((x, i) => !Number.isFinite(x) || (i % 4 === 3 && x < 0))) {
     throw bodyInvalid('has spheres that are not four finite numbers each');
   }
-  return { ...header, mesh, voxels, centers, distances, spheres };
 }
 
-/**
- * Reads a pose space from the extension's JSON. `targetCount` is how many morph targets the mesh has.
- *
- * Throws 'file-unsupported' for an unknown version, otherwise 'file-invalid' or, naming an example, 'example-shape-mismatch' or
- * 'example-not-finite'.
- */
-export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: number }): PoseSpaceData {
-  const space = asObject(json) ?? {};
-  if (space.version !== 0) {
-    throw new HandlebodyError('file-unsupported', {
-      message: `The pose space has format version ${JSON.stringify(space.version)}; this release reads version 0.`,
-      remedy: 'Update Handlebody, or export the pose space again with this release.',
-    });
-  }
-  if (!Array.isArray(space.dimensions) || space.dimensions.length === 0 || !Array.isArray(space.examples)) {
-    throw poseInvalid('lists no dimensions or no examples');
-  }
-  const dimensions = space.dimensions.map((entry) => {
-    const { name, min, max } = asObject(entry) ?? {};
-    if (typeof name !== 'string' || !isNumber(min) || !isNumber(max) || min >= max) {
-      throw poseInvalid('has a dimension without a name, or whose minimum is not below its maximum');
-    }
-    return { name, min, max };
-  });
-  if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw poseInvalid('uses one name for two dimensions');
-  const examples = space.examples.map((entry, index) => {
-    const { name, at, weights } = asObject(entry) ?? {};
-    if (typeof name !== 'string') throw poseInvalid(`has no name for example ${index}`);
-    return {
-      name,
-      at: exampleNumbers(at, { index, name, what: 'place', expected: dimensions.length }),
-      weights: exampleNumbers(weights, { index, name, what: 'row of weights', expected: targetCount }),
-    };
-  });
-  return { version: 0, dimensions, examples };
+function gridSize({ dimensions: [nx, ny, nz] }: BodyData['grid']): number {
+  return nx * ny * nz;
 }
 
-function exampleNumbers(value: unknown, of: { index: number; name: string; what: string; expected: number }): number[] {
-  const culprit = { kind: 'example', index: of.index } as const;
-  if (!Array.isArray(value) || value.length !== of.expected) {
-    throw new HandlebodyError('example-shape-mismatch', {
-      message: `The ${of.what} of example "${of.name}" needs ${of.expected} numbers and has ${Array.isArray(value) ? value.length : 'none'}.`,
-      remedy: 'Give one number a dimension for its place, and one weight for each morph target of the mesh.',
-      culprit,
-    });
+function checkCount(voxels: number, centers: number): void {
+  if (voxels === 0 || centers === 0) throw bodyInvalid('is empty');
+  if (voxels > MAX_VOXELS || voxels * centers > MAX_CODES) {
+    throw bodyInvalid(
+      `would have ${centers} centers × ${voxels} voxels; at most ${MAX_VOXELS} voxels and ${MAX_CODES} distances are stored`,
+      undefined,
+      'Bake with fewer centers or a lower resolution.',
+    );
   }
-  if (!value.every(isNumber)) {
-    throw new HandlebodyError('example-not-finite', {
-      message: `The ${of.what} of example "${of.name}" is not made of finite numbers.`,
-      remedy: 'Export the pose space again.',
-      culprit,
-    });
-  }
-  return [...value];
-}
-
-function asObject(value: unknown): GltfJson | undefined {
-  return isObject(value) ? value : undefined;
-}
-
-function isNumber(value: unknown): value is number {
-  return typeof value === 'number' && Number.isFinite(value);
 }
 
 function triple(value: unknown, name: string): [number, number, number] {
@@ -186,16 +200,11 @@ function positive(value: unknown, name: string): number {
   return value;
 }
 
-function bodyInvalid(what: string): HandlebodyError {
-  return new HandlebodyError('body-invalid', {
-    message: `The baked body ${what}.`,
-    remedy: 'The file is damaged or was edited: bake the model again.',
-  });
-}
-
-function poseInvalid(what: string): HandlebodyError {
-  return new HandlebodyError('file-invalid', {
-    message: `The pose space ${what}.`,
-    remedy: 'The file is damaged or was edited: export the pose space again.',
-  });
+/** @internal */
+export function bodyInvalid(
+  what: string,
+  cause?: unknown,
+  remedy = 'The file is damaged or was edited: bake the model again.',
+): HandlebodyError {
+  return new HandlebodyError('body-invalid', { message: `The baked body ${what}.`, remedy, cause });
 }

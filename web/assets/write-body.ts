@@ -1,34 +1,40 @@
 import type { Document } from '@gltf-transform/core';
 import type { BodyData } from '../../wasm/ts/types.ts';
+import { encodeBody } from './body-codec.ts';
 import { type BodyAccessorName, BodyExtension, type BodyProperty } from './body-extension.ts';
 import { readMesh } from './read-mesh.ts';
-import { assembleBody, BODY_ACCESSORS, HANDLEBODY_BODY, parseBodyHeader } from './schema.ts';
+import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, parseBodyHeader } from './schema.ts';
 
 /**
  * Puts a baked body into a document, in place of one that is there. Attach it last: whatever moves, adds or reorders vertices afterwards
- * makes it worthless, and reading it then throws 'body-mismatch'. The sphere coordinates are stored as floats, all else exactly.
+ * makes it worthless, and reading it then fails with 'body-mismatch'. The sphere coordinates are stored as floats, all else exactly.
  *
- * Throws 'body-mismatch' when the body was not baked for this document, 'body-invalid' when its arrays contradict each other.
+ * Rejects with 'body-mismatch' when the body was not baked for this document, 'body-version' or 'body-invalid' when it is of another
+ * format or its arrays contradict each other; the document is then as it was.
  *
  * ```ts
  * const document = await readGlb(bytes);
- * attachBody(document, await hb.bake(readMesh(document).mesh));
+ * await attachBody(document, await hb.bake(readMesh(document).mesh));
  * await writeFile('body.glb', await writeGlb(document));
  * ```
  */
-export function attachBody(document: Document, body: BodyData): BodyProperty {
-  const { mesh } = readMesh(document);
-  const { version, positionsHash, normalization, grid, distanceScale } = body;
-  const header = parseBodyHeader({ version, positionsHash, normalization, grid, distanceScale });
-  assembleBody({ header, arrays: body, mesh });
+export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
+  const { version, distance, positionsHash, normalization, grid, distanceScale } = body;
+  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale });
+  const checked = { ...body, ...header, mesh: readMesh(document).mesh };
+  checkBody(checked);
+  const { arrays, arraysHash } = await encodeBody(checked);
 
   detachBody(document);
   const root = document.getRoot();
   const buffer = root.listBuffers()[0] ?? document.createBuffer();
-  const property = document.createExtension(BodyExtension).createBody().setHeader(header);
-  for (const [name, { type, array }] of Object.entries(BODY_ACCESSORS)) {
+  const property = document
+    .createExtension(BodyExtension)
+    .createBody()
+    .setHeader({ ...header, arraysHash });
+  for (const [name, { type }] of Object.entries(BODY_ACCESSORS)) {
     const accessor = document.createAccessor(`${HANDLEBODY_BODY}.${name}`, buffer).setType(type);
-    property.setAccessor(name as BodyAccessorName, accessor.setArray(array.from(body[name as BodyAccessorName])));
+    property.setAccessor(name as BodyAccessorName, accessor.setArray(arrays[name as BodyAccessorName]));
   }
   root.setExtension(HANDLEBODY_BODY, property);
   return property;
@@ -49,5 +55,6 @@ export function detachBody(document: Document): boolean {
   // A pipeline that removes duplicates may have given an accessor a second use.
   for (const accessor of accessors)
     if (accessor?.listParents().every((parent) => parent === document.getRoot())) accessor.dispose();
+  document.disposeExtension(HANDLEBODY_BODY);
   return true;
 }

@@ -6,6 +6,7 @@ import {
   DynamicDrawUsage,
   type InterleavedBufferAttribute,
   type Object3D,
+  type Points,
   type SkinnedMesh,
   Sphere,
   type Mesh as ThreeMesh,
@@ -17,7 +18,7 @@ import { IDENTITY, invertAffine, isIdentity, type Matrix, multiplyMatrices, type
 
 /** A three.js mesh and its vertices' place in the joined mesh. */
 export interface ObjectPart {
-  readonly mesh: ThreeMesh;
+  readonly mesh: ThreeMesh | Points;
   /** First vertex, and how many. */
   readonly start: number;
   readonly count: number;
@@ -36,7 +37,8 @@ export interface ObjectMesh {
 /**
  * The triangles below an object as one mesh, in depth-first order; for the scene that GLTFLoader gives this is the scene order of the
  * file. Positions are in the space of `object`, whose own transform does not count: a model may be moved after it was baked. Vertices
- * are copied as stored, quantized ones decoded; morph targets are at rest; lines, points and sprites are skipped.
+ * are copied as stored, quantized ones decoded; morph targets are at rest; lines and sprites are skipped, and so are points, unless there
+ * is nothing else: then it is a cloud, a mesh without triangles.
  *
  * A skinned mesh is taken in its bind space, before skinning: its own transform does not move it.
  *
@@ -48,25 +50,27 @@ export interface ObjectMesh {
  * ```
  */
 export function meshFromObject(object: Object3D): ObjectMesh {
-  const found: { mesh: ThreeMesh; matrix: Matrix }[] = [];
+  const found: { mesh: ThreeMesh | Points; matrix: Matrix }[] = [];
   const visit = (node: Object3D, parent: Matrix, isRoot: boolean) => {
     if (node.matrixAutoUpdate) node.updateMatrix();
     const matrix = isRoot ? IDENTITY : multiplyMatrices(parent, node.matrix.elements);
-    if (isMesh(node) && node.geometry.getAttribute('position')) {
+    if ((isMesh(node) || isPoints(node)) && node.geometry.getAttribute('position')) {
       found.push({ mesh: node, matrix: isSkinned(node) ? [...node.bindMatrix.elements] : matrix });
     }
     for (const child of node.children) visit(child, matrix, false);
   };
   visit(object, IDENTITY, true);
 
-  const { mesh, ranges } = concatenate(found.map(({ mesh, matrix }) => partOf(mesh.geometry, matrix)));
-  const parts = found.map((part, i) => ({ ...part, start: ranges[i]?.start ?? 0, count: ranges[i]?.count ?? 0 }));
+  const surface = found.filter(({ mesh }) => !isPoints(mesh));
+  const taken = surface.length > 0 ? surface : found;
+  const { mesh, ranges } = concatenate(taken.map(({ mesh, matrix }) => partOf(mesh, matrix)));
+  const parts = taken.map((part, i) => ({ ...part, start: ranges[i]?.start ?? 0, count: ranges[i]?.count ?? 0 }));
   return { mesh, parts, normals: collectNormals(parts, mesh.positions.length) };
 }
 
-function partOf(geometry: BufferGeometry, matrix: Matrix): MeshPart {
-  const positions = decode(geometry.getAttribute('position'));
-  return { positions, indices: geometry.index?.array, matrix };
+function partOf(mesh: ThreeMesh | Points, matrix: Matrix): MeshPart {
+  const positions = decode(mesh.geometry.getAttribute('position'));
+  return { positions, indices: mesh.geometry.index?.array, mode: isPoints(mesh) ? 0 : 4, matrix };
 }
 
 /** Three numbers a vertex, whatever the attribute's layout. */
@@ -112,13 +116,17 @@ function isMesh(node: Object3D): node is ThreeMesh {
   return (node as Partial<ThreeMesh>).isMesh === true;
 }
 
-function isSkinned(mesh: ThreeMesh): mesh is SkinnedMesh {
+function isPoints(node: Object3D): node is Points {
+  return (node as Partial<Points>).isPoints === true;
+}
+
+function isSkinned(mesh: Object3D): mesh is SkinnedMesh {
   return (mesh as Partial<SkinnedMesh>).isSkinnedMesh === true;
 }
 
 /** A part while it is being deformed. */
 interface LivePart {
-  readonly mesh: ThreeMesh;
+  readonly mesh: ThreeMesh | Points;
   readonly start: number;
   readonly count: number;
   readonly original: BufferGeometry;
@@ -273,7 +281,7 @@ function writeNormals({ start, count, geometry, inverse, matrix }: LivePart, fro
   normals.needsUpdate = true;
 }
 
-function inverseOf(matrix: Matrix, mesh: ThreeMesh): Sixteen {
+function inverseOf(matrix: Matrix, mesh: Object3D): Sixteen {
   const inverse = invertAffine(matrix);
   if (inverse) return inverse;
   throw new HandlebodyError('mesh-zero-extent', {

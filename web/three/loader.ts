@@ -11,16 +11,9 @@ import type { Object3D, Mesh as ThreeMesh } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import {
-  assembleBody,
-  BODY_ACCESSORS,
-  type BodyArrays,
-  HANDLEBODY_BODY,
-  HANDLEBODY_POSE_SPACE,
-  type PoseSpaceData,
-  parseBodyHeader,
-  parsePoseSpace,
-} from '../assets/schema.ts';
+import { decodeBody } from '../assets/body-codec.ts';
+import { type PoseSpaceData, parsePoseSpace } from '../assets/pose-space-schema.ts';
+import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
 import { meshFromObject } from './geometry.ts';
 
 /** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
@@ -60,7 +53,7 @@ export function handlebodyPlugin(parser: GLTFParser): HandlebodyGLTFPlugin {
 
 /**
  * Reads HANDLEBODY_body and HANDLEBODY_pose_space when the scene is there. A file with a damaged extension, or one baked for other
- * positions, fails to load with a `HandlebodyError`: 'body-version', 'body-invalid', 'body-mismatch', 'file-unsupported',
+ * positions, fails to load with a `HandlebodyError`: 'body-version', 'body-invalid', 'body-mismatch', 'wasm-unavailable', 'file-unsupported',
  * 'file-invalid', 'example-shape-mismatch' or 'example-not-finite'.
  */
 export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
@@ -80,10 +73,10 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   async #readBody(scene: Object3D): Promise<BodyData | undefined> {
     const json = this.#parser.json.extensions?.[HANDLEBODY_BODY] as Record<string, unknown> | undefined;
     if (!json) return undefined;
-    const header = parseBodyHeader(json);
+    const header = parseStoredHeader(json);
     const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
-    const arrays = Object.fromEntries(await Promise.all(entries)) as unknown as BodyArrays;
-    return assembleBody({ header, arrays, mesh: meshFromObject(scene).mesh });
+    const arrays = Object.fromEntries(await Promise.all(entries)) as Partial<StoredArrays>;
+    return decodeBody({ header, arrays, mesh: () => meshFromObject(scene).mesh });
   }
 
   /** The loader's arrays may be windows on one buffer, which posting a body to a worker would take along: so they are copied. */

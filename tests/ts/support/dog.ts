@@ -3,9 +3,14 @@ import type { BodyData } from '../../../wasm/ts/index.ts';
 import { readBody, readGlb } from '../../../web/assets/index.ts';
 import { bounds } from './shapes.ts';
 
-/** The baked dog as it is served. */
+/** The dog's file as it is served. */
+export function readDogBytes(): Uint8Array {
+  return readFileSync(new URL('../../../public/models/dog.glb', import.meta.url));
+}
+
+/** The baked dog in it. */
 export async function readDog(): Promise<BodyData> {
-  const body = readBody(await readGlb(readFileSync(new URL('../../../public/models/dog.glb', import.meta.url))));
+  const body = await readBody(await readGlb(readDogBytes()));
   if (!body) throw new Error('public/models/dog.glb carries no body');
   return body;
 }

@@ -98,6 +98,6 @@ export function poseGlb(examples: readonly { name: string; at: number[]; weights
     positions,
     indices,
     targets: [target(0), target(1)],
-    extensions: { HANDLEBODY_pose_space: { version: 0, dimensions, examples } },
+    extensions: { HANDLEBODY_pose_space: { version: 1, dimensions, examples } },
   });
 }
