@@ -34,8 +34,6 @@ export interface BodySceneOptions {
 
 /** Iterations a frame: enough to follow a hand, few enough for 60 frames a second on a laptop. */
 const ITERATIONS = 4;
-/** With no hand to follow, the last few hundred iterations change little: more and more of them to a frame, up to this many. */
-const MOST_ITERATIONS = 48;
 const RESET_SECONDS = 0.45;
 /** A handle this near to rest, in diagonals, is at rest. */
 const AT_REST = 5e-4;
@@ -219,7 +217,7 @@ export class BodyScene implements StudioScene, Steerable {
   #advance(): boolean {
     let round: Round;
     try {
-      round = this.#body.advance(Math.min(ITERATIONS + (this.#iterations >> 2), MOST_ITERATIONS));
+      round = this.#body.advance(ITERATIONS);
     } catch (error) {
       for (const i of this.#points.keys()) this.#overlay.setPosition(i, ...this.target(i).toArray());
       this.#acted = false;
