@@ -179,7 +179,9 @@ function volumeSurface({ dimensions: [nx, ny, nz], spacing, origin, inside }: Vo
     const [i, j, k] = [voxel % nx, Math.floor(voxel / nx) % ny, Math.floor(voxel / (nx * ny))];
     for (const [di, dj, dk, corners] of SIDES) {
       if (isInside(i + di, j + dj, k + dk)) continue;
-      const [a = 0, b = 0, c = 0, d = 0] = corners.map((corner) => vertex(i + (corner & 1), j + ((corner >> 1) & 1), k + (corner >> 2)));
+      const [a = 0, b = 0, c = 0, d = 0] = corners.map((corner) =>
+        vertex(i + (corner & 1), j + ((corner >> 1) & 1), k + (corner >> 2)),
+      );
       triangles.push(a, b, c, a, c, d);
     }
   }

@@ -60,5 +60,11 @@ function readWarning(heap: Heap, from: number): BakeWarning {
   const at: Vec3 | undefined = placed ? [x, y, z] : undefined;
   const where = `(${[x, y, z].map((n) => Number(n.toPrecision(3))).join(', ')})`;
   const [message, remedy] = SENTENCES[code]({ count, value, at: where });
-  return { code, message, remedy, ...(vertex !== 0xffff_ffff && { culprit: { kind: 'vertex', index: vertex } }), ...(at && { at }) };
+  return {
+    code,
+    message,
+    remedy,
+    ...(vertex !== 0xffff_ffff && { culprit: { kind: 'vertex', index: vertex } }),
+    ...(at && { at }),
+  };
 }

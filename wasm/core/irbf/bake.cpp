@@ -67,6 +67,11 @@ Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& vo
 
 }  // namespace
 
+// Out of line: there is a lot to move and to destroy.
+Bake::Bake() = default;
+Bake::Bake(Bake&&) noexcept = default;
+Bake::~Bake() = default;
+
 Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options) {
   if (auto checked = check_options(options, positions.rows()); !checked) return checked.error();
   if (auto checked = check_mesh(positions, triangles, options.cloud); !checked) return checked.error();

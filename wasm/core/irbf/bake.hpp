@@ -55,6 +55,9 @@ class Bake {
    */
   static Result<Bake> begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options);
 
+  Bake(Bake&&) noexcept;
+  ~Bake();
+
   /** A bounded piece of work: some triangles, a slab of voxels, a center. Returns the part done, 1 when finished. Fails with
    *  MESH_NO_INTERIOR, CLOUD_TOO_SPARSE or OUT_OF_MEMORY; the bake is over then. */
   Result<double> step();
@@ -69,7 +72,7 @@ class Bake {
   enum class Phase { orient, cross, voxelize, fill, domain, link, depth, spheres, prepare, stencils, centers, quantize, finished };
 
   // Movable only before the first step: distances keep the address of the body's domain.
-  Bake() = default;
+  Bake();
   void orient();
   bool cross_triangles(int axis);
   void voxelize_slab();

@@ -148,8 +148,9 @@ Result<Points> Irbf::constraint_points(const ConstPoints& handles, const std::ve
                    {"Give x, y and z as ordinary numbers."}, HB_CULPRIT_HANDLE, k);
     }
     const Vector3 point = body_.normalization.to_solver(handles.row(k).transpose());
-    // The surface itself counts as inside, and so does what a voxel blurs.
-    if (std::abs(surface_->winding_number(point)) <= 0.5 && surface_->distance(point) > body_.domain.grid().spacing) {
+    // The surface itself counts as inside, and so does what a voxel blurs; a point cloud has voxels only.
+    if (std::abs(surface_->winding_number(point)) <= 0.5 && surface_->distance(point) > body_.domain.grid().spacing &&
+        (body_.domain.center(body_.domain.nearest(point)) - point).norm() > body_.domain.grid().spacing) {
       return Error(HB_ERROR_HANDLE_OUTSIDE, {"Handle ", k, " lies outside the model."},
                    {"Put it on a vertex or at a point inside the surface."}, HB_CULPRIT_HANDLE, k);
     }
