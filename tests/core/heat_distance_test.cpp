@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "known_geodesics.hpp"
+#include "oracle_lines.hpp"
 
 using namespace handlebody;
 using namespace handlebody::test;
@@ -132,4 +133,33 @@ TEST_CASE("heat refuses a domain whose factors would not fit, before it allocate
   const auto done = heat.step();
   REQUIRE(!done);
   CHECK(done.error().code == HB_ERROR_OUT_OF_MEMORY);
+}
+
+TEST_CASE("heat is what SciPy makes of the same equations, and near scikit-fmm's fast marching") {
+  for (const std::string& line : oracle_lines("heat_distance.json")) {
+    const std::vector<double> size = oracle_numbers(line, "size"), s = oracle_numbers(line, "source"),
+                              expected = oracle_numbers(line, "heat"), marched = oracle_numbers(line, "marched");
+    const double corner = oracle_numbers(line, "bend")[0];
+    const Grid grid{Vector3::Zero(), 1, {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])}};
+    std::vector<std::uint32_t> voxels;
+    for (std::int64_t c = 0; c < grid.size(); ++c) {
+      const auto [i, j, k] = grid.cell(c);
+      if (i < corner || j < corner) voxels.push_back(static_cast<std::uint32_t>(c));
+    }
+    const VoxelDomain domain(grid, voxels);
+    HeatDistance heat = ready(domain);
+    std::vector<double> d(voxels.size());
+    heat.measure({s[0], s[1], s[2]}, d.data());
+    REQUIRE(expected.size() == d.size());
+    double difference = 0, fast = 0, count = 0;
+    for (std::size_t v = 0; v < d.size(); ++v) {
+      difference = std::max(difference, std::abs(d[v] - expected[v]));
+      if (marched[v] < 0) continue;
+      fast += std::abs(d[v] - marched[v]), ++count;
+    }
+    MESSAGE("largest difference from SciPy " << difference << ", mean from scikit-fmm " << fast / count << " spacings");
+    CHECK(difference < 1e-8);  // the file has nine digits
+    CHECK(count > 800);
+    CHECK(fast / count < .5);  // whose own start is off by up to 0.45
+  }
 }
