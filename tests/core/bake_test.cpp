@@ -315,7 +315,9 @@ TEST_CASE("density draws centers: nine times as dense, a third as far apart") {
 
 TEST_CASE("codes give the distances back to one code, and no center is taken twice") {
   const Baked baked = bake(bar.positions, bar.triangles, small());
-  auto exact = make_interior_distance(DistanceMethod::fast_marching, baked.body.domain);
+  auto made = make_interior_distance(DistanceMethod::fast_marching, baked.body.domain, bar.positions, bar.triangles);
+  REQUIRE(made);
+  auto& exact = *made;
   std::vector<double> field(static_cast<std::size_t>(baked.body.domain.size()));
   double largest = 0;
   for (std::size_t c = 0; c < baked.body.centers.size(); ++c) {
@@ -329,6 +331,35 @@ TEST_CASE("codes give the distances back to one code, and no center is taken twi
   std::vector<std::uint32_t> centers = baked.body.centers;
   std::sort(centers.begin(), centers.end());
   CHECK(std::adjacent_find(centers.begin(), centers.end()) == centers.end());
+}
+
+TEST_CASE("four ways to measure distances: never below Euclidean, near each other in a bar") {
+  BakeOptions options = small();
+  options.method = DistanceMethod::euclidean;
+  const Baked straight = bake(bar.positions, bar.triangles, options);
+  for (const auto method : {DistanceMethod::fast_marching, DistanceMethod::heat, DistanceMethod::mean_value}) {
+    CAPTURE(static_cast<unsigned>(method));
+    options.method = method;
+    const Baked baked = bake(bar.positions, bar.triangles, options);
+    REQUIRE(baked.code == HB_OK);
+    CHECK(baked.body.domain.voxels() == straight.body.domain.voxels());
+    CHECK(baked.body.centers[0] == straight.body.centers[0]);
+    const double voxels = static_cast<double>(baked.body.domain.size());
+    double sum = 0, straight_sum = 0;
+    for (std::size_t v = 0; v < static_cast<std::size_t>(voxels); ++v) {  // from the first center, a corner of the bar
+      const double d = baked.body.distance_scale * baked.body.distances[v];
+      const double e = straight.body.distance_scale * straight.body.distances[v];
+      CHECK(d >= .97 * e);
+      sum += d, straight_sum += e;
+    }
+    // A bar is convex: what goes through it is straight; what goes along its surface is longer by its girth.
+    CHECK(sum / straight_sum < (method == DistanceMethod::mean_value ? 1.25 : 1.02));
+  }
+  options.method = DistanceMethod::mean_value;
+  const MadeMesh two = joined({bar, box({5, 0, 0}, {1, 1, 1}, {2, 2, 2})});
+  CHECK(bake(two.positions, two.triangles, options).code == HB_ERROR_MESH_NOT_CONNECTED);
+  options.cloud = true;
+  CHECK(bake(bar.positions, Triangles(0, 3), options).code == HB_ERROR_MESH_NO_TRIANGLES);
 }
 
 TEST_CASE("whatever the triangles, a bake ends in a body or an error (seeds 1 to 60)") {
@@ -349,13 +380,14 @@ TEST_CASE("whatever the triangles, a bake ends in a body or an error (seeds 1 to
       for (Index c = 0; c < 3; ++c) triangles(t, c) = random() % static_cast<unsigned>(n);
     }
     BakeOptions options = small(8 + static_cast<int>(random() % 24));
-    options.method = random() % 2 ? DistanceMethod::euclidean : DistanceMethod::fast_marching;
+    options.method = static_cast<DistanceMethod>(random() % distance_method_count);
     options.packing = random() % 2 ? SpherePacking::tree : SpherePacking::skeleton;
     options.cloud = random() % 4 == 0;
     const Baked baked = bake(positions, options.cloud ? Triangles(0, 3) : triangles, options);
     if (baked.code != HB_OK) {
       CHECK((baked.code == HB_ERROR_MESH_NO_INTERIOR || baked.code == HB_ERROR_CLOUD_TOO_SPARSE ||
-             baked.code == HB_ERROR_MESH_ZERO_EXTENT));
+             baked.code == HB_ERROR_MESH_ZERO_EXTENT || baked.code == HB_ERROR_MESH_NO_TRIANGLES ||
+             baked.code == HB_ERROR_MESH_OPEN || baked.code == HB_ERROR_MESH_NOT_CONNECTED));
     }
   }
 }

@@ -135,6 +135,16 @@ describe('shapes', () => {
     expect(body.mesh).toBe(soup);
   });
 
+  it.each(['fast-marching', 'heat', 'mean-value', 'euclidean'] as const)('measures by %s', async (distance) => {
+    const { body } = await baked(BAR, { distance });
+    expect(body.distance).toBe(distance);
+    const longest =
+      body.distances.reduce((most, code) => Math.max(most, code), 0) * body.distanceScale * body.normalization.diagonal;
+    expect(longest).toBeGreaterThan(3.9);
+    expect(longest).toBeLessThan(5.5);
+    expect(moveAll(body)).toBeLessThan(1e-5);
+  });
+
   it('packs spheres along the skeleton or from an octree', async () => {
     const [skeleton, tree] = await Promise.all(
       (['skeleton', 'tree'] as const).map(async (packing) => (await baked(BAR, { packing })).body),
@@ -333,7 +343,7 @@ it('whatever the numbers, a bake ends in a body or one of its errors (seed 7)', 
       },
     ];
     const options: BakeOptions = {
-      distance: random() < 0.5 ? 'euclidean' : 'fast-marching',
+      distance: (['euclidean', 'fast-marching', 'heat', 'mean-value'] as const)[Math.floor(4 * random())] ?? 'heat',
       packing: random() < 0.5 ? 'tree' : 'skeleton',
       resolution: 8 + Math.floor(12 * random()),
     };

@@ -105,7 +105,7 @@ HB_API int32_t hb_mesh_check_size(double vertex_count, double triangle_count);
 HB_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const hb_bake_options* options, hb_bake** bake);
 
 /* One bounded step (some triangles, a slab of voxels or one center). `progress` grows from 0 to 1; the bake is done when it is 1. Fails
- * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE or OUT_OF_MEMORY. */
+ * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED. */
 HB_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 
 /* The finished body, owned by the bake. */

@@ -1,6 +1,10 @@
 #include "core/distance/interior_distance.hpp"
 
+#include <utility>
+
 #include "core/distance/fast_marching.hpp"
+#include "core/distance/heat_distance.hpp"
+#include "core/distance/mean_value_distance.hpp"
 
 namespace handlebody {
 namespace {
@@ -25,16 +29,49 @@ class Marching final : public InteriorDistance {
   FastMarching marching_;
 };
 
+class Heat final : public InteriorDistance {
+ public:
+  explicit Heat(const VoxelDomain& domain) : heat_(domain) {}
+  Result<double> step() override { return heat_.step(); }
+  void measure(const Vector3& source, double* distances) override { heat_.measure(source, distances); }
+
+ private:
+  HeatDistance heat_;
+};
+
+class MeanValue final : public InteriorDistance {
+ public:
+  explicit MeanValue(MeanValueDistance begun) : distance_(std::move(begun)) {}
+  Result<double> step() override { return distance_.step(); }
+  void measure(const Vector3& source, double* distances) override { distance_.measure(source, distances); }
+
+ private:
+  MeanValueDistance distance_;
+};
+
 }  // namespace
 
-std::unique_ptr<InteriorDistance> make_interior_distance(DistanceMethod method, const VoxelDomain& domain) {
+Result<std::unique_ptr<InteriorDistance>> make_interior_distance(DistanceMethod method, const VoxelDomain& domain,
+                                                                 const Points& positions, const Triangles& triangles) {
+  std::unique_ptr<InteriorDistance> made;
   switch (method) {
     case DistanceMethod::fast_marching:
-      return std::make_unique<Marching>(domain);
-    case DistanceMethod::euclidean:
+      made = std::make_unique<Marching>(domain);
       break;
+    case DistanceMethod::euclidean:
+      made = std::make_unique<Straight>(domain);
+      break;
+    case DistanceMethod::heat:
+      made = std::make_unique<Heat>(domain);
+      break;
+    case DistanceMethod::mean_value: {
+      auto begun = MeanValueDistance::begin(positions, triangles, domain);
+      if (!begun) return begun.error();
+      made = std::make_unique<MeanValue>(std::move(*begun));
+      break;
+    }
   }
-  return std::make_unique<Straight>(domain);
+  return made;
 }
 
 }  // namespace handlebody

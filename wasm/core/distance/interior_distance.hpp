@@ -12,8 +12,10 @@ namespace handlebody {
 enum class DistanceMethod : unsigned {
   fast_marching = 0,
   euclidean = 1,  // for convex shapes, and to see what interior distances buy
+  heat = 2,
+  mean_value = 3,
 };
-constexpr unsigned distance_method_count = 2;
+constexpr unsigned distance_method_count = 4;
 
 /** Distances from one source after another on one domain, which must outlive it: step until ready, then measure. */
 class InteriorDistance {
@@ -28,6 +30,9 @@ class InteriorDistance {
   virtual void measure(const Vector3& source, double* distances) = 0;
 };
 
-std::unique_ptr<InteriorDistance> make_interior_distance(DistanceMethod method, const VoxelDomain& domain);
+/** Mean value distances take the surface too, in the domain's units: they fail with MESH_OPEN, MESH_NOT_CONNECTED or OUT_OF_MEMORY
+ *  (see mean_value_distance.hpp). */
+Result<std::unique_ptr<InteriorDistance>> make_interior_distance(DistanceMethod method, const VoxelDomain& domain,
+                                                                 const Points& positions, const Triangles& triangles);
 
 }  // namespace handlebody

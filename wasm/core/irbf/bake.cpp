@@ -75,6 +75,10 @@ Bake::~Bake() = default;
 Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options) {
   if (auto checked = check_options(options, positions.rows()); !checked) return checked.error();
   if (auto checked = check_mesh(positions, triangles, options.cloud); !checked) return checked.error();
+  if (options.cloud && options.method == DistanceMethod::mean_value) {
+    return Error(HB_ERROR_MESH_NO_TRIANGLES, {"Mean value distances go along a surface, and a point cloud has none."},
+                 {"Use another distance, or give a closed mesh."});
+  }
 
   Bake bake;
   bake.options_ = std::move(options);
@@ -127,7 +131,7 @@ Result<double> Bake::step() {
       measure_depth();
       break;
     case Phase::spheres:
-      pack();
+      if (auto done = pack(); !done) return done.error();
       break;
     case Phase::prepare: {
       auto done = distance_->step();
@@ -284,7 +288,7 @@ void Bake::measure_depth() {
   if (end == count) phase_ = Phase::spheres;
 }
 
-void Bake::pack() {
+Result<Done> Bake::pack() {
   SpherePackingOptions packing;
   packing.max_spheres = options_.max_spheres;
   body_.spheres = sheet_                                    ? spread_spheres(body_.domain, options_.max_spheres)
@@ -294,8 +298,11 @@ void Bake::pack() {
   for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * grid_.spacing);
   tree_.reset();
   depth_ = {};
-  distance_ = make_interior_distance(options_.method, body_.domain);
+  auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, triangles_);
+  if (!distance) return distance.error();
+  distance_ = std::move(*distance);
   phase_ = Phase::prepare;
+  return Done{};
 }
 
 void Bake::sample_vertices() {

@@ -59,7 +59,8 @@ class Bake {
   ~Bake();
 
   /** A bounded piece of work: some triangles, a slab of voxels, a center. Returns the part done, 1 when finished. Fails with
-   *  MESH_NO_INTERIOR, CLOUD_TOO_SPARSE or OUT_OF_MEMORY; the bake is over then. */
+   *  MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED; the bake is
+   * over then. */
   Result<double> step();
 
   bool finished() const { return phase_ == Phase::finished; }
@@ -80,7 +81,7 @@ class Bake {
   Result<Done> make_domain();
   void link_axis();
   void measure_depth();
-  void pack();
+  Result<Done> pack();
   void sample_vertices();
   void add_center();
   void quantize();

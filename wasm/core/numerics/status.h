@@ -25,7 +25,9 @@ typedef enum hb_status {
   HB_ERROR_MESH_NO_INTERIOR = 25, /* no voxel lies inside: an open sheet, or a grid too coarse */
   HB_ERROR_MESH_TOO_LARGE = 26,
   HB_ERROR_MESH_DEGENERATE = 27, /* a triangle without area, a tetrahedron without volume */
-  HB_ERROR_CLOUD_TOO_SPARSE = 28, /* a point cloud whose gaps are wider than the grid can close */
+  HB_ERROR_MESH_OPEN = 28,       /* an edge without a triangle on its other side, where a method needs a closed surface */
+  HB_ERROR_MESH_NOT_CONNECTED = 29, /* several parts where a method needs one */
+  HB_ERROR_CLOUD_TOO_SPARSE = 30, /* a point cloud whose gaps are wider than the grid can close */
 
   /* baked bodies */
   HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
