@@ -22,28 +22,33 @@ class FastMarching {
   void march(const Vector3& source, double* distances);
 
  private:
-  // A voxel before it is accepted: its trial distance, and of the equation that gave it Σ s²t and Σ s²t². `axes` has a bit for each
-  // axis that has its term, and one for voxels on the boundary; `fourfold` is 4 Σ s².
+  // A voxel before it is accepted: its trial distance, and of the equation that gave it Σ s²(t − base) and Σ s²(t − base)², where
+  // `base` is the first neighbor's distance. `axes` has a bit for each axis that has its term, and one for voxels on the boundary;
+  // `fourfold` is 4 Σ s².
   struct Cell {
-    double d, st, stt;
-    std::uint32_t axes, fourfold;
+    float d, base, st, stt;
+    std::uint16_t axes, fourfold;
+  };
+  struct Entry {
+    std::int32_t voxel, next;
   };
   static constexpr int ring = 64;  // buckets
 
   void initialize(const Vector3& source);
   void accept(std::int32_t voxel);
-  void join(Cell& cell, std::uint32_t axis, double a, double b) const;
-  double simplices(const std::int32_t* sides, const double* around, double dw, int axis) const;
+  void join(Cell& cell, std::uint16_t axis, float a, float b) const;
+  float simplices(const std::int32_t* sides, const float* around, float dw, int axis) const;
   void push(std::int32_t voxel, std::int32_t bucket);
 
   const VoxelDomain* domain_;
   std::vector<std::int32_t> neighbors_;  // VoxelDomain::face_neighbors()
-  std::vector<double> accepted_;         // final distances, +infinity elsewhere and at the row that stands for "no voxel"
+  std::vector<float> accepted_;         // final distances, +infinity elsewhere and at the row that stands for "no voxel"
   std::vector<Cell> cells_, fresh_cells_;
   std::vector<std::int32_t> ball_;  // the voxels that start exact
-  std::array<std::vector<std::int32_t>, ring> buckets_;
-  std::int32_t current_ = 0;  // the bucket that is being emptied
-  std::size_t waiting_ = 0;   // in all buckets
+  std::array<std::int32_t, ring> buckets_;  // the first entry of each list, or -1
+  std::vector<Entry> entries_;              // all that were ever pushed
+  std::int32_t current_ = 0;                // the bucket that is being emptied
+  std::size_t waiting_ = 0;                 // in all buckets
 };
 
 }  // namespace handlebody

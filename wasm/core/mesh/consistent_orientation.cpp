@@ -13,18 +13,38 @@ namespace {
 /** The sides of all triangles, side 3t + c running from corner c to the next, with those of one edge in a row. */
 class Edges {
  public:
-  explicit Edges(const Triangles& triangles) : triangles_(triangles) {
-    order_ = sorted_indices(static_cast<std::size_t>(triangles.size()), [&](std::uint32_t s, std::uint32_t t) {
-      const auto a = ends(s), b = ends(t);
-      return a != b ? a < b : s < t;
-    });
-    // A triangle that uses a vertex twice has no side to face.
-    order_.erase(std::remove_if(order_.begin(), order_.end(),
-                                [&](std::uint32_t side) {
-                                  const auto t = triangles.row(side / 3);
-                                  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-                                }),
-                 order_.end());
+  Edges(const Triangles& triangles, Index vertices) : triangles_(triangles) {
+    // By the lower end in one pass, then by the higher among the few that share it.
+    Numbers starts(static_cast<std::size_t>(vertices) + 1);
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    const auto for_each_side = [&](const auto& visit) {
+      for (std::uint32_t side = 0; side < count; ++side) {
+        const std::uint32_t* t = triangles.data() + side / 3 * 3;
+        // A triangle that uses a vertex twice has no side to face.
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) visit(side, ends(side).first);
+      }
+    };
+    for_each_side([&](std::uint32_t, std::uint32_t low) { ++starts[low + 1]; });
+    for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
+    order_.resize(starts.back());
+    Numbers next = starts;
+    for_each_side([&](std::uint32_t side, std::uint32_t low) { order_[next[low]++] = side; });
+    Numbers few;
+    for (std::size_t v = 0; v + 1 < starts.size(); ++v) {
+      few.assign(order_.begin() + starts[v], order_.begin() + starts[v + 1]);
+      const auto before = [&](std::uint32_t s, std::uint32_t t) {
+        const std::uint32_t high_s = ends(s).second, high_t = ends(t).second;
+        return high_s != high_t ? high_s < high_t : s < t;
+      };
+      if (few.size() > 32) {
+        sort(few, before);
+      } else {
+        for (std::size_t i = 1; i < few.size(); ++i) {
+          for (std::size_t k = i; k > 0 && before(few[k], few[k - 1]); --k) std::swap(few[k], few[k - 1]);
+        }
+      }
+      std::copy(few.begin(), few.end(), order_.begin() + starts[v]);
+    }
   }
 
   std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t side) const {
@@ -72,7 +92,7 @@ double area_of(const Points& positions, const Triangles& triangles, Index t) {
 }  // namespace
 
 Orientation orient_consistently(const Points& positions, Triangles& triangles) {
-  const Edges edges(triangles);
+  const Edges edges(triangles, positions.rows());
   Orientation result{false, false, 0, count_open(edges)};
   if (result.open_edges == 0) {
     double volume = 0;
@@ -136,7 +156,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
     std::swap(triangles(static_cast<Index>(t), 1), triangles(static_cast<Index>(t), 2));
     ++result.turned;
   }
-  result.open_edges = count_open(Edges(triangles));
+  result.open_edges = count_open(Edges(triangles, positions.rows()));
   result.closed = result.open_edges == 0;
   return result;
 }
