@@ -60,6 +60,7 @@ function exportSignatures(header) {
 const status = readFileSync(at('wasm/core/numerics/status.h'), 'utf8');
 const abi = readFileSync(at('wasm/abi/handlebody.h'), 'utf8');
 const codes = enumEntries(status, 'HB_ERROR_');
+const warnings = enumEntries(status, 'HB_WARNING_');
 const culprits = enumEntries(status, 'HB_CULPRIT_');
 /** @param {[string, number][]} entries */
 const map = (entries) => entries.map(([name, value]) => `  ${value}: '${name}',`).join('\n');
@@ -80,6 +81,13 @@ ${map(codes)}
 
 /** Stable names of everything that can go wrong. */
 export type ErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
+
+export const WARNING_CODES = {
+${map(warnings)}
+} as const;
+
+/** Stable names of what a bake may warn of. */
+export type WarningCode = (typeof WARNING_CODES)[keyof typeof WARNING_CODES];
 
 export const CULPRIT_KINDS = {
 ${map(culprits)}

@@ -1,8 +1,9 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or irbf, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, irbf, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
 const PARTS = {
+  bake: async () => (await import('./bake/main.mjs')).benchBake(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf.mjs')).benchIrbf(),
   skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),

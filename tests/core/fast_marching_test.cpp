@@ -6,117 +6,37 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <string>
+#include <utility>
+#include <vector>
+
+#include "known_geodesics.hpp"
 
 using namespace handlebody;
+using namespace handlebody::test;
 
 namespace {
 
-using Vector2 = Eigen::Vector2d;
-
-/** A unit square's subset, extruded over eight voxels. */
-template <typename Inside>
-VoxelDomain extruded(int resolution, Inside inside) {
-  const Grid grid = *make_grid({0, 0, 0}, {1, 1, 8. / resolution}, resolution);
-  std::vector<std::uint32_t> voxels;
-  for (std::int64_t c = 0; c < grid.size(); ++c) {
-    const Vector3 p = grid.center(c);
-    if (p.minCoeff() > 0 && p[0] < 1 && p[1] < 1 && p[2] < 8. / resolution && inside(Vector2(p[0], p[1]))) {
-      voxels.push_back(static_cast<std::uint32_t>(c));
-    }
-  }
-  return {grid, voxels};
-}
-
-struct Accuracy {
-  double mean, largest;
-};
-
-/** Relative errors over all voxels at least five spacings from the source. A geodesic of an extruded set rises evenly, so its
- *  length is the hypotenuse of the flat one and the rise. */
-template <typename Flat>
-Accuracy accuracy(const VoxelDomain& domain, const std::vector<Vector2>& sources, Flat flat) {
-  FastMarching marching(domain);
-  std::vector<double> d(domain.size());
-  double sum = 0, largest = 0;
-  Index count = 0;
-  for (const Vector2& s : sources) {
-    const Vector3 source(s[0], s[1], 4 * domain.grid().spacing);
-    marching.march(source, d.data());
-    for (Index v = 0; v < domain.size(); ++v) {
-      const Vector3 p = domain.center(v);
-      if ((p - source).norm() < 5 * domain.grid().spacing) continue;
-      const double exact = std::hypot(flat(s, Vector2(p[0], p[1])), p[2] - source[2]);
-      const double error = std::abs(d[v] / exact - 1);
-      sum += error, largest = std::max(largest, error), ++count;
-    }
-  }
-  return {sum / static_cast<double>(count), largest};
-}
-
-template <typename Inside, typename Flat>
-void check_accuracy(const std::string& name, Inside inside, const std::vector<Vector2>& sources, Flat flat, double mean,
-                    double largest) {
-  const Accuracy coarse = accuracy(extruded(64, inside), sources, flat), fine = accuracy(extruded(128, inside), sources, flat);
-  MESSAGE(name << ": mean " << 100 * coarse.mean << "%, largest " << 100 * coarse.largest << "% at 64; mean " << 100 * fine.mean
-               << "%, largest " << 100 * fine.largest << "% at 128; ratio " << coarse.mean / fine.mean);
+void check_accuracy(const KnownShape& shape, double mean, double largest) {
+  const auto measured = [&](int resolution) {
+    const VoxelDomain domain = shape.domain(resolution);
+    FastMarching marching(domain);
+    return accuracy(shape, domain, [&](const Vector3& source, double* d) { marching.march(source, d); });
+  };
+  const Accuracy coarse = measured(64), fine = measured(128);
+  MESSAGE(shape.name << ": mean " << 100 * coarse.mean << "%, largest " << 100 * coarse.largest << "% at 64; mean "
+                     << 100 * fine.mean << "%, largest " << 100 * fine.largest << "% at 128; ratio " << coarse.mean / fine.mean);
   CHECK(coarse.mean <= mean);
   CHECK(coarse.largest <= largest);
   CHECK(coarse.mean / fine.mean >= 1.6);
 }
 
-// A multiple of 1/16, so that voxels show the corner where it is: at 64 and 128 voxels the error is the march's, not the voxels'.
-constexpr double bend = .4375;
-
-bool inside_l(const Vector2& p) {
-  return p[0] < bend || p[1] < bend;
-}
-
-/** Straight, or around the corner. */
-double around(const Vector2& corner, const Vector2& a, const Vector2& b) {
-  const Vector2 d = b - a;
-  double enter = 0, leave = 1;  // of the segment in the quadrant beyond the corner
-  for (int k = 0; k < 2; ++k) {
-    const double t = d[k] != 0 ? (corner[k] - a[k]) / d[k] : (a[k] > corner[k] ? 0 : 2);
-    if (d[k] < 0) {
-      leave = std::min(leave, t);
-    } else if (d[k] > 0 || t > 1) {
-      enter = std::max(enter, t);
-    }
-  }
-  return enter < leave ? (corner - a).norm() + (b - corner).norm() : d.norm();
-}
-
-/** Straight, or along two tangents and an arc of the hole of radius .3 about (.5, .5). */
-double ring_distance(const Vector2& p, const Vector2& q) {
-  const double r = .3;
-  const Vector2 a = p - Vector2(.5, .5), b = q - Vector2(.5, .5);
-  const double la = a.norm(), lb = b.norm();
-  const double arc = std::acos(std::clamp(a.dot(b) / (la * lb), -1., 1.)) - std::acos(r / la) - std::acos(r / lb);
-  return arc > 0 ? std::sqrt(la * la - r * r) + std::sqrt(lb * lb - r * r) + r * arc : (p - q).norm();
-}
-
 }  // namespace
 
-TEST_CASE("fast marching in a box") {
-  check_accuracy(
-      "box", [](const Vector2&) { return true; }, {{.1, .1}, {.5, .5}, {0, 0}, {.31, .77}},
-      [](const Vector2& a, const Vector2& b) { return (a - b).norm(); }, .003, .02);
-}
-
-TEST_CASE("fast marching around the corner of an L") {
-  check_accuracy(
-      "L", inside_l, {{.1, .9}, {.3, .95}, {.2, .2}, {0, .7}},
-      [](const Vector2& a, const Vector2& b) {
-        return around({bend, bend}, a, b);
-      },
-      .003, .02);
-}
-
-TEST_CASE("fast marching around a ring") {
-  check_accuracy(
-      "ring", [](const Vector2& p) { return (p - Vector2(.5, .5)).norm() > .3 && (p - Vector2(.5, .5)).norm() < .5; },
-      {{.5, .9}, {.97, .5}, {.73, .73}}, ring_distance, .015, .06);
+TEST_CASE("fast marching in a box, around the corner of an L and around a ring") {
+  const std::vector<KnownShape> shapes = known_shapes();
+  check_accuracy(shapes[0], .003, .02);
+  check_accuracy(shapes[1], .003, .02);
+  check_accuracy(shapes[2], .015, .06);
 }
 
 TEST_CASE("the distance from a to b is that from b to a within 2%") {

@@ -3,13 +3,13 @@ import { existsSync } from 'node:fs';
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
-import type { BakeOptions, BodyData, Mesh } from '../../wasm/ts/types.ts';
+import type { BakeOptions, BakeShape, BakeWarning, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import { answerBake, type BakePort } from '../../web/worker/answer-bake.ts';
 import { bakeInWorker } from '../../web/worker/index.ts';
 import { packError, unpackError } from '../../web/worker/messages.ts';
 import { boxMesh } from './support/shapes.ts';
 
-type Bake = (mesh: Mesh, options: BakeOptions) => Promise<BodyData>;
+type Bake = (shape: BakeShape, options: BakeOptions) => Promise<BodyData>;
 
 /** A worker that runs on this thread: what is posted is cloned and transferred as between threads. */
 class FakeWorker extends EventTarget {
@@ -50,12 +50,13 @@ const MESH: Mesh = {
   triangles: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3),
 };
 
-const fakeBake: Bake = async (mesh, { onProgress, centers = 2 }) => {
+const fakeBake: Bake = async (shape, { onProgress, centers = 2 }) => {
+  const mesh = shape as Mesh;
   for (const part of [0.25, 0.5, 1]) onProgress?.(part);
   return {
     version: 1,
-    distance: 'fast-marching',
     mesh,
+    distance: 'fast-marching',
     positionsHash: hashPositions(mesh.positions),
     normalization: { center: [0.5, 0.5, 0.5], diagonal: Math.sqrt(3) },
     grid: { origin: [0, 0, 0], spacing: 0.1, dimensions: [2, 2, 2] },
@@ -90,7 +91,8 @@ describe('bakeInWorker', () => {
     const seen: number[] = [];
     await bakeInWorker(mesh, {
       worker: makeWorker(async (posted, options) => {
-        seen.push(posted.positions.buffer.byteLength, ...posted.positions);
+        const { positions } = posted as Mesh;
+        seen.push(positions.buffer.byteLength, ...positions);
         return fakeBake(posted, options);
       }),
     });
@@ -103,6 +105,30 @@ describe('bakeInWorker', () => {
     const parts: number[] = [];
     await bakeInWorker(MESH, { onProgress: (part) => parts.push(part), worker: makeWorker(fakeBake) });
     expect(parts).toEqual([0.25, 0.5, 1]);
+  });
+
+  it('tells the warnings, and brings the mesh that was made for another shape', async () => {
+    const cloud = { positions: MESH.positions };
+    const made = () => ({ positions: Float64Array.from(MESH.positions), triangles: new Uint32Array() });
+    const warning: BakeWarning = {
+      code: 'part-outside',
+      message: 'a',
+      remedy: 'b',
+      culprit: { kind: 'vertex', index: 2 },
+      at: [1, 2, 3],
+    };
+    const told: BakeWarning[] = [];
+    const body = await bakeInWorker(cloud, {
+      onWarning: (given) => told.push(given),
+      density: [1, 2, 3, 4],
+      worker: makeWorker(async (shape, options) => {
+        expect([Object.keys(shape), Array.from(options.density ?? [])]).toEqual([['positions'], [1, 2, 3, 4]]);
+        options.onWarning?.(warning);
+        return { ...(await fakeBake(shape, options)), mesh: made() };
+      }),
+    });
+    expect(told).toEqual([warning]);
+    expect(body.mesh).toEqual(made());
   });
 
   it('throws the error of the worker, with all that it had', async () => {

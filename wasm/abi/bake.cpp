@@ -1,5 +1,6 @@
 #include "core/irbf/bake.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -17,21 +18,40 @@ struct hb_bake {
 
 extern "C" {
 
+int32_t hb_mesh_check_size(double vertex_count, double triangle_count) {
+  const auto whole = [](double count) { return static_cast<std::int64_t>(count >= 0 && count < 1e15 ? count : 1e15); };
+  auto checked = handlebody::check_mesh_size(whole(vertex_count), whole(triangle_count));
+  return checked ? HB_OK : handlebody::fail(checked.error());
+}
+
 int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
-                      uint32_t center_count, uint32_t resolution, uint32_t method, uint32_t max_spheres, hb_bake** bake) {
-  if (method > static_cast<uint32_t>(handlebody::DistanceMethod::euclidean)) {
+                      const hb_bake_options* given, hb_bake** bake) {
+  if (given->method >= handlebody::distance_method_count || given->packing >= handlebody::sphere_packing_count) {
     return handlebody::fail({HB_ERROR_INVALID_OPTION,
-                             {"There is no distance method ", method, "."},
-                             {"Use 0 for fast marching or 1 for Euclidean."},
+                             {"There is no distance method ", given->method, " or no packing ", given->packing, "."},
+                             {"Use the numbers that the header lists."},
                              HB_CULPRIT_OPTION});
   }
   handlebody::BakeOptions options;
-  options.centers = center_count;
-  options.resolution = static_cast<int>(std::min(resolution, 100000u));
-  options.method = static_cast<handlebody::DistanceMethod>(method);
-  options.max_spheres = static_cast<int>(std::min(max_spheres, 100000u));
+  options.centers = given->center_count;
+  options.resolution = static_cast<int>(std::min(given->resolution, 100000u));
+  options.method = static_cast<handlebody::DistanceMethod>(given->method);
+  options.max_spheres = static_cast<int>(std::min(given->max_spheres, 100000u));
+  options.packing = static_cast<handlebody::SpherePacking>(given->packing);
+  options.cloud = given->cloud != 0;
+  if (given->density != nullptr) options.density.assign(given->density, given->density + vertex_count);
+  if (given->voxel_count > 0) {
+    handlebody::Grid grid;
+    grid.spacing = given->spacing;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      grid.origin[static_cast<handlebody::Index>(axis)] = given->origin[axis];
+      grid.dims[axis] = static_cast<std::int32_t>(std::min(given->dims[axis], 100'000'000u));
+    }
+    options.grid = grid;
+    options.voxels.assign(given->voxels, given->voxels + given->voxel_count);
+  }
   auto begun = Bake::begin(Eigen::Map<const handlebody::Points>(positions, vertex_count, 3),
-                           Eigen::Map<const handlebody::Triangles>(triangles, triangle_count, 3), options);
+                           Eigen::Map<const handlebody::Triangles>(triangles, triangle_count, 3), std::move(options));
   if (!begun) return handlebody::fail(begun.error());
   *bake = new hb_bake(std::move(*begun));
   return HB_OK;
@@ -74,6 +94,20 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   out->distances = body.distances.data();
   out->spheres = bake->spheres.data();
   return HB_OK;
+}
+
+uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* out) {
+  const auto& warnings = bake->bake.warnings();
+  if (index < warnings.size()) {
+    const handlebody::BakeWarning& warning = warnings[index];
+    out->code = warning.code;
+    out->vertex = static_cast<int32_t>(warning.vertex);
+    out->count = static_cast<uint32_t>(warning.count);
+    out->placed = warning.place.has_value();
+    out->value = warning.value;
+    for (int axis = 0; axis < 3; ++axis) out->place[axis] = warning.place ? (*warning.place)[axis] : 0;
+  }
+  return static_cast<uint32_t>(warnings.size());
 }
 
 void hb_bake_free(hb_bake* bake) {

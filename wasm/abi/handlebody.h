@@ -72,17 +72,47 @@ typedef struct hb_body {
 
 typedef struct hb_bake hb_bake;
 
-/* Checks a mesh and begins to bake it. `method` is 0 (interior distances by fast marching) or 1 (Euclidean, for comparison);
- * `resolution` counts voxels along the longest side of the box, 8 to 512; `center_count` 1 to 5000 (at most the number of distinct
- * vertices is used), sampled farthest-first by interior distance; `max_spheres` 1 to 2000.
- * Fails with MESH_* codes, INVALID_OPTION or OUT_OF_MEMORY. */
-HB_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, uint32_t center_count, uint32_t resolution, uint32_t method, uint32_t max_spheres, hb_bake** bake);
+/* What to bake and how. Pointers may be NULL and are read during hb_bake_begin only. */
+typedef struct hb_bake_options {
+  uint32_t center_count;   /* 1 to 5000 (at most the number of distinct vertices is used), sampled farthest-first by interior distance */
+  uint32_t resolution;     /* voxels along the longest side of the box, 8 to 512 */
+  uint32_t method;         /* interior distances: 0 fast marching, 1 Euclidean, for comparison, 2 heat, 3 mean value */
+  uint32_t max_spheres;    /* 1 to 2000 */
+  uint32_t packing;        /* spheres along the skeleton (0), or from an octree (1) */
+  uint32_t cloud;          /* 1: the positions are a dense sample of a surface or a solid, without triangles */
+  uint32_t voxel_count;    /* not 0: these voxels are the inside, of the grid that follows, in model units; the mesh is their surface */
+  uint32_t dims[3];
+  double origin[3];        /* center of voxel (0, 0, 0) */
+  double spacing;
+  const uint32_t* voxels;  /* linear indices i + nx·(j + ny·k), ascending */
+  const double* density;   /* vertex_count relative densities of centers, 1e-6 to 1e6, 1 where nothing special is wanted */
+} hb_bake_options;
 
-/* One bounded step (a slab of voxels or one center). `progress` grows from 0 to 1; the bake is done when it is 1. */
+/* Something to tell about a bake that worked. */
+typedef struct hb_bake_warning {
+  int32_t code;      /* an hb_warning_code */
+  int32_t vertex;    /* its vertex, or -1 */
+  uint32_t count;    /* of triangles, open edges, links or vertices, as the code says */
+  uint32_t placed;   /* 1: `place`, model units, is where it is worst */
+  double value;      /* LIMBS_MERGED: a resolution that would do, or 0; PART_OUTSIDE: how far out, model units */
+  double place[3];
+} hb_bake_warning;
+
+/* Refuses a mesh that is too large by its counts alone, before its arrays are copied in. Fails with MESH_TOO_LARGE. */
+HB_API int32_t hb_mesh_check_size(double vertex_count, double triangle_count);
+
+/* Checks a surface, point cloud or volume and begins to bake it. Fails with MESH_* codes, INVALID_SHAPE, INVALID_OPTION. */
+HB_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const hb_bake_options* options, hb_bake** bake);
+
+/* One bounded step (some triangles, a slab of voxels or one center). `progress` grows from 0 to 1; the bake is done when it is 1. Fails
+ * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED. */
 HB_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 
 /* The finished body, owned by the bake. */
 HB_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
+
+/* What there is to tell so far: the number of warnings, of which number `index` is written, if there is one. */
+HB_API uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* warning);
 
 HB_API void hb_bake_free(hb_bake* bake);
 

@@ -1,20 +1,29 @@
 import { LAYOUT } from './abi.generated.ts';
+import { prepareShape } from './bake-shape.ts';
+import { tellWarnings } from './bake-warnings.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
 import { runStepped } from './stepped.ts';
-import type { BakeOptions, BodyData, DistanceMethod, Mesh } from './types.ts';
+import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh } from './types.ts';
 
-export const BAKE_DEFAULTS = { centers: 200, distance: 'fast-marching', resolution: 96, spheres: 120 } as const;
+export { checkMeshArrays } from './bake-shape.ts';
 
-const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean: 1 };
+export const BAKE_DEFAULTS = {
+  centers: 200,
+  distance: 'fast-marching',
+  resolution: 96,
+  spheres: 120,
+  packing: 'skeleton',
+} as const;
+
+const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean: 1, heat: 2, 'mean-value': 3 };
+const PACKINGS = { skeleton: 0, tree: 1 } as const;
 
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
-export async function bake(heap: Heap, mesh: Mesh, options: BakeOptions): Promise<BodyData> {
-  const { centers, distance, resolution, spheres } = { ...BAKE_DEFAULTS, ...options };
+export async function bake(heap: Heap, shape: BakeShape, options: BakeOptions): Promise<BodyData> {
+  const { centers, distance, resolution, spheres, packing } = { ...BAKE_DEFAULTS, ...options };
   throwIfAborted(options.signal);
-  checkMeshArrays(mesh);
-  const method = METHODS[distance];
   for (const [name, value] of Object.entries({ centers, resolution, spheres })) {
     if (!Number.isInteger(value) || value < 1 || value > 0xffff_ffff) {
       throw new HandlebodyError('invalid-option', {
@@ -23,44 +32,63 @@ export async function bake(heap: Heap, mesh: Mesh, options: BakeOptions): Promis
       });
     }
   }
-  if (method === undefined) {
-    throw new HandlebodyError('invalid-option', {
-      message: `There is no distance method called "${distance}".`,
-      remedy: `Use one of: ${Object.keys(METHODS).join(', ')}.`,
+  const numbers = {
+    center_count: centers,
+    resolution,
+    method: chosen('distance method', METHODS, distance),
+    max_spheres: spheres,
+    packing: chosen('packing', PACKINGS, packing),
+  };
+  const { mesh, cloud, voxels } = prepareShape(heap, shape);
+  const vertexCount = mesh.positions.length / 3;
+  if (options.density && options.density.length !== vertexCount) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `There are ${options.density.length} densities for ${vertexCount} vertices.`,
+      remedy: 'Give one number a vertex, 1 where nothing special is wanted.',
     });
   }
 
   const handle = heap.scope((scratch) => {
-    const out = scratch.reserve(4);
+    const layout = LAYOUT.hb_bake_options;
+    const [given, out] = [scratch.reserve(layout.sizeof), scratch.reserve(4)];
+    const put = (offset: number, value: number) => heap.u32(given + offset, 1).fill(value);
     const positions = scratch.putF64(mesh.positions);
     const triangles = scratch.putU32(mesh.triangles);
-    const [n, m] = [mesh.positions.length / 3, mesh.triangles.length / 3];
-    heap.check((e) => e.hb_bake_begin(positions, n, triangles, m, centers, resolution, method, spheres, out));
+    for (const [name, value] of Object.entries(numbers)) put(layout[name as keyof typeof numbers], value);
+    put(layout.cloud, cloud ? 1 : 0);
+    if (options.density) put(layout.density, scratch.putF64(options.density));
+    if (voxels && 'dimensions' in shape) {
+      put(layout.voxel_count, voxels.length);
+      put(layout.voxels, scratch.putU32(voxels));
+      heap.u32(given + layout.dims, 3).set(shape.dimensions);
+      heap.f64(given + layout.origin, 3).set(shape.origin);
+      heap.f64(given + layout.spacing, 1).fill(shape.spacing);
+    }
+    heap.check((e) => e.hb_bake_begin(positions, vertexCount, triangles, mesh.triangles.length / 3, given, out));
     return heap.u32(out, 1)[0] ?? 0;
   });
   try {
-    await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), options);
-    return { ...readBody(heap, handle, mesh), distance };
+    let told = 0;
+    const onProgress = (part: number) => {
+      if (options.onWarning) told = tellWarnings(heap, handle, told, options.onWarning);
+      options.onProgress?.(part);
+    };
+    await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), { ...options, onProgress });
+    return readBody(heap, handle, mesh, distance);
   } finally {
     heap.call((e) => e.hb_bake_free(handle));
   }
 }
 
-/** Lengths that the solver cannot see for itself; the values are checked there. */
-export function checkMeshArrays(mesh: Mesh): void {
-  for (const [name, length] of [
-    ['positions', mesh.positions.length],
-    ['triangles', mesh.triangles.length],
-  ] as const) {
-    if (length % 3 === 0) continue;
-    throw new HandlebodyError('invalid-shape', {
-      message: `The mesh's ${name} have ${length} numbers, which is not a multiple of 3.`,
-      remedy: name === 'positions' ? 'Give x, y and z for every vertex.' : 'Give three vertex indices for every triangle.',
-    });
-  }
+function chosen<Name extends string>(what: string, numbers: Record<Name, number>, name: Name): number {
+  if (Object.hasOwn(numbers, name)) return numbers[name];
+  throw new HandlebodyError('invalid-option', {
+    message: `There is no ${what} called "${name}".`,
+    remedy: `Use one of: ${Object.keys(numbers).join(', ')}.`,
+  });
 }
 
-function readBody(heap: Heap, bake: number, mesh: Mesh): Omit<BodyData, 'distance'> {
+function readBody(heap: Heap, bake: number, mesh: Mesh, distance: DistanceMethod): BodyData {
   const layout = LAYOUT.hb_body;
   return heap.scope((scratch) => {
     const body = scratch.reserve(layout.sizeof);
@@ -72,6 +100,7 @@ function readBody(heap: Heap, bake: number, mesh: Mesh): Omit<BodyData, 'distanc
     return {
       version: 1,
       mesh,
+      distance,
       positionsHash: hashPositions(mesh.positions),
       normalization: { center: triple(layout.center), diagonal: double(layout.diagonal) },
       grid: {

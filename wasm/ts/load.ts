@@ -22,7 +22,7 @@ import type { SimplexMesh } from './simplex-mesh.ts';
 import type { SkinOptions } from './skin.ts';
 import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
-import type { BakeOptions, BodyData, IrbfOptions, Mesh } from './types.ts';
+import type { BakeOptions, BakeShape, BodyData, IrbfOptions, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
 const ABI_VERSION = 1;
@@ -47,9 +47,12 @@ export class Handlebody {
     return this.#heap.byteLength;
   }
 
-  /** Computes the interior distances and spheres of a mesh, in small steps so that the thread stays responsive. */
-  bake(mesh: Mesh, options: BakeOptions = {}): Promise<BodyData> {
-    return bake(this.#heap, mesh, options);
+  /**
+   * Computes the interior distances and spheres of a surface, a solid or a cloud of points, in small steps so that the thread stays
+   * responsive.
+   */
+  bake(shape: BakeShape, options: BakeOptions = {}): Promise<BodyData> {
+    return bake(this.#heap, shape, options);
   }
 
   /** Prepares a baked body for deformation by handles. */

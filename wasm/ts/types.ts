@@ -1,5 +1,10 @@
 /** The plain data that crosses the library's boundaries: no classes, all of it can be posted between threads. */
+
+import type { WarningCode } from './abi.generated.ts';
+import type { Culprit } from './errors.ts';
 import type { KernelFunction, KernelName } from './kernels.ts';
+
+export type { WarningCode } from './abi.generated.ts';
 
 /** A triangle mesh in scene space, Y up. `positions` n×3; `triangles` m×3 indices, counter-clockwise seen from outside. */
 export interface Mesh {
@@ -7,13 +12,37 @@ export interface Mesh {
   readonly triangles: Uint16Array | Uint32Array;
 }
 
+/** A solid of tetrahedra (m×4 indices, in either order of corners). All of its vertices deform; they are shared by number. */
+export interface TetrahedralMesh {
+  readonly positions: Float32Array | Float64Array;
+  readonly tetrahedra: Uint16Array | Uint32Array;
+}
+
+/** A dense sample of a surface or of a solid, without triangles: dense enough that a voxel grid over it shows no wide gaps. */
+export interface PointCloud {
+  readonly positions: Float32Array | Float64Array;
+}
+
+/** A solid of cubes: voxel (i, j, k), whose center is origin + spacing·(i, j, k), is inside where `inside[i + nx·(j + ny·k)]` is not 0. */
+export interface VoxelVolume {
+  readonly dimensions: readonly [number, number, number];
+  readonly spacing: number;
+  readonly origin: readonly [number, number, number];
+  readonly inside: Uint8Array;
+}
+
+/** What can be baked. */
+export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
+
 /**
  * A mesh with its interior distances and spheres, as {@link bake} makes it and a baked GLB carries it. Lengths from `grid` on are in
  * solver space: (position − normalization.center) / normalization.diagonal.
  */
 export interface BodyData {
   readonly version: 1;
+  /** The mesh that was baked; of tetrahedra and voxels the surface with all vertices, of a point cloud the points and no triangles. */
   readonly mesh: Mesh;
+  /** How the distances were measured. */
   readonly distance: DistanceMethod;
   /** Hash of the positions that the distances were computed for; see `hashPositions`. */
   readonly positionsHash: string;
@@ -35,19 +64,39 @@ export interface BodyData {
   readonly spheres: Float64Array;
 }
 
-export type DistanceMethod = 'fast-marching' | 'euclidean';
+/**
+ * Distances inside the body: by fast marching; by heat, smoother and quicker; by mean value coordinates, smoothest; or through the air,
+ * for convex shapes and open sheets.
+ */
+export type DistanceMethod = 'fast-marching' | 'heat' | 'mean-value' | 'euclidean';
 
 export interface BakeOptions {
   /** How many IRBF centers to sample, farthest first. */
   readonly centers?: number;
   readonly distance?: DistanceMethod;
-  /** Voxels along the longest side of the bounding box. */
+  /** Voxels along the longest side of the bounding box. A voxel volume brings its own. */
   readonly resolution?: number;
   /** Most spheres to fill the volume with. */
   readonly spheres?: number;
+  /** Spheres along the skeleton, or from an octree: spread over the volume, more alike. */
+  readonly packing?: 'skeleton' | 'tree';
+  /** For each vertex how dense centers are to be about it, relative to 1: where detail will be moved, more. */
+  readonly density?: ArrayLike<number>;
   readonly signal?: AbortSignal;
   /** Called with the part done, 0 to 1. */
   readonly onProgress?: (part: number) => void;
+  /** Told of what worked but perhaps not as meant. */
+  readonly onWarning?: (warning: BakeWarning) => void;
+}
+
+/** `message` and `remedy` are written to be shown to people, `code` is stable and made for programs. */
+export interface BakeWarning {
+  readonly code: WarningCode;
+  readonly message: string;
+  readonly remedy: string;
+  readonly culprit?: Culprit | undefined;
+  /** Where it is worst, in the model's units. */
+  readonly at?: Vec3 | undefined;
 }
 
 export type Vec3 = readonly [number, number, number];

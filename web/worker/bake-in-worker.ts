@@ -1,6 +1,6 @@
 import { HandlebodyError, throwIfAborted } from '../../wasm/ts/errors.ts';
-import type { BakeOptions, BodyData, Mesh } from '../../wasm/ts/types.ts';
-import { type BakeReply, type BakeRequest, type PostedBakeOptions, unpackError } from './messages.ts';
+import type { BakeOptions, BakeShape, BakeWarning, BodyData, Mesh } from '../../wasm/ts/types.ts';
+import { type BakeReply, type BakeRequest, copyShape, type PostedBakeOptions, unpackError } from './messages.ts';
 
 export interface BakeInWorkerOptions extends BakeOptions {
   /**
@@ -13,8 +13,8 @@ export interface BakeInWorkerOptions extends BakeOptions {
 }
 
 /**
- * Bakes a mesh on another thread, so that the page stays smooth. The mesh's arrays are copied and stay the caller's; the body's `mesh` is
- * the one given. An aborted signal ends the worker at once.
+ * Bakes on another thread, so that the page stays smooth. The shape's arrays are copied and stay the caller's; where it is a mesh, the
+ * body's `mesh` is the one given. An aborted signal ends the worker at once.
  *
  * Without workers (Node, old browsers, a policy that blocks them) it steps on this thread, in slices of some milliseconds.
  *
@@ -24,17 +24,17 @@ export interface BakeInWorkerOptions extends BakeOptions {
  * const body = await bakeInWorker(mesh, { centers: 200, onProgress: (part) => { bar.value = part; }, signal });
  * ```
  */
-export async function bakeInWorker(mesh: Mesh, options: BakeInWorkerOptions = {}): Promise<BodyData> {
-  const { worker: makeWorker = defaultWorker, onFallback, signal, onProgress, ...posted } = options;
+export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOptions = {}): Promise<BodyData> {
+  const { worker: makeWorker = defaultWorker, onFallback, signal, onProgress, onWarning, ...posted } = options;
   throwIfAborted(signal);
   let worker: Worker;
   try {
     worker = makeWorker();
   } catch (reason) {
-    return bakeHere(mesh, options, reason);
+    return bakeHere(shape, options, reason);
   }
-  const outcome = await converse(worker, { mesh, posted, signal, onProgress });
-  return 'body' in outcome ? outcome.body : bakeHere(mesh, options, outcome.notStarted);
+  const outcome = await converse(worker, { shape, posted, signal, onProgress, onWarning });
+  return 'body' in outcome ? outcome.body : bakeHere(shape, options, outcome.notStarted);
 }
 
 /** Written as bundlers look for it. The name ends in .js for the published files; Vite finds the .ts beside it in the sources. */
@@ -43,14 +43,15 @@ function defaultWorker(): Worker {
 }
 
 interface Conversation {
-  readonly mesh: Mesh;
+  readonly shape: BakeShape;
   readonly posted: PostedBakeOptions;
   readonly signal: AbortSignal | undefined;
   readonly onProgress: ((part: number) => void) | undefined;
+  readonly onWarning: ((warning: BakeWarning) => void) | undefined;
 }
 
 async function converse(worker: Worker, bake: Conversation): Promise<{ body: BodyData } | { notStarted: unknown }> {
-  const { mesh, signal, onProgress } = bake;
+  const { shape, signal, onProgress, onWarning } = bake;
   const listening = new AbortController();
   try {
     return await new Promise((resolve, reject) => {
@@ -72,7 +73,8 @@ async function converse(worker: Worker, bake: Conversation): Promise<{ body: Bod
           ready = true;
           postBake(worker, bake);
         } else if (reply.type === 'progress') onProgress?.(reply.part);
-        else if (reply.type === 'body') resolve({ body: { ...reply.body, mesh } });
+        else if (reply.type === 'warning') onWarning?.(reply.warning);
+        else if (reply.type === 'body') resolve({ body: { ...reply.body, mesh: reply.body.mesh ?? (shape as Mesh) } });
         else if (reply.type === 'error') reject(unpackError(reply.error));
       });
       listen('error', (event) => {
@@ -90,19 +92,20 @@ async function converse(worker: Worker, bake: Conversation): Promise<{ body: Bod
 }
 
 /** The copies travel without being copied again. */
-function postBake(worker: Worker, { mesh, posted }: Conversation): void {
-  const copy = { positions: mesh.positions.slice(), triangles: mesh.triangles.slice() };
-  const request: BakeRequest = { type: 'bake', mesh: copy, options: posted };
-  worker.postMessage(request, [copy.positions.buffer as ArrayBuffer, copy.triangles.buffer as ArrayBuffer]);
+function postBake(worker: Worker, { shape, posted }: Conversation): void {
+  const { copy, buffers } = copyShape(shape);
+  const density = posted.density && Float64Array.from(posted.density);
+  const request: BakeRequest = { type: 'bake', shape: copy, options: density ? { ...posted, density } : posted };
+  worker.postMessage(request, buffers);
 }
 
-async function bakeHere(mesh: Mesh, options: BakeInWorkerOptions, reason: unknown): Promise<BodyData> {
+async function bakeHere(shape: BakeShape, options: BakeInWorkerOptions, reason: unknown): Promise<BodyData> {
   const { worker: _, onFallback, ...bakeOptions } = options;
   onFallback?.(reason);
   // Loaded only now: a page whose worker starts never needs the solver for this.
   const { load } = await import('../../wasm/ts/index.ts');
   const hb = await load(options.signal ? { signal: options.signal } : {});
-  return hb.bake(mesh, bakeOptions);
+  return hb.bake(shape, bakeOptions);
 }
 
 function abortError(signal: AbortSignal): unknown {

@@ -2,4 +2,4 @@
 import { load } from '../../wasm/ts/index.ts';
 import { answerBake, type BakePort } from './answer-bake.ts';
 
-answerBake(globalThis as unknown as BakePort, async (mesh, options) => (await load()).bake(mesh, options));
+answerBake(globalThis as unknown as BakePort, async (shape, options) => (await load()).bake(shape, options));

@@ -1,14 +1,23 @@
 /** What the page and the baking worker say to each other. Everything is plain data; arrays are transferred, not copied. */
 import { type CulpritKind, type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
-import type { BakeOptions, BodyData, Mesh } from '../../wasm/ts/types.ts';
+import type { BakeOptions, BakeShape, BakeWarning, BodyData } from '../../wasm/ts/types.ts';
 
 /** Options that can be posted; the rest act on the page's side. */
-export type PostedBakeOptions = Omit<BakeOptions, 'signal' | 'onProgress'>;
+export type PostedBakeOptions = Omit<BakeOptions, 'signal' | 'onProgress' | 'onWarning'>;
 
 export interface BakeRequest {
   readonly type: 'bake';
-  readonly mesh: Mesh;
+  readonly shape: BakeShape;
   readonly options: PostedBakeOptions;
+}
+
+/** A copy of a shape, and the buffers that can be handed over with it. */
+export function copyShape(shape: BakeShape): { copy: BakeShape; buffers: ArrayBuffer[] } {
+  const copy = Object.fromEntries(
+    Object.entries(shape).map(([name, value]) => [name, ArrayBuffer.isView(value) ? (value as Uint8Array).slice() : value]),
+  ) as unknown as BakeShape;
+  const buffers = Object.values(copy).flatMap((value) => (ArrayBuffer.isView(value) ? [value.buffer as ArrayBuffer] : []));
+  return { copy, buffers };
 }
 
 /** An error as plain data: a posted error loses its class and all properties of its own. */
@@ -24,8 +33,9 @@ export type BakeReply =
   /** The worker's code runs: without this, the page knows that it never started. */
   | { readonly type: 'ready' }
   | { readonly type: 'progress'; readonly part: number }
-  /** The mesh stays behind: the page has it. */
-  | { readonly type: 'body'; readonly body: Omit<BodyData, 'mesh'> }
+  | { readonly type: 'warning'; readonly warning: BakeWarning }
+  /** A mesh that was baked stays behind: the page has it. That of another shape comes along. */
+  | { readonly type: 'body'; readonly body: Omit<BodyData, 'mesh'> & Partial<Pick<BodyData, 'mesh'>> }
   | { readonly type: 'error'; readonly error: PostedError };
 
 /** Any error as plain data. */

@@ -4,14 +4,33 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace handlebody {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double ball_radius = 3.5;  // in spacings
-constexpr std::int32_t unseen = -1, done = -2;
+// Lengths in spacings.
+//
+// What was tried, on the dog's 12,188 voxels at 96, native, in milliseconds a source (scikit-fmm of order 2: 3.7):
+//   1.69  a binary heap with places to update; every update solves its equation and all simplices anew
+//   1.47  below, with buckets of 1/16 that are kept sorted: the order of a heap, and its accuracy
+//   1.05  unsorted buckets: an untidy queue (Yatziv, Bartesaghi & Sapiro 2006)
+//   0.89  lengths in spacings, reciprocals from a table, one record a voxel, no push within a bucket: taken
+//   0.86  buckets of 1/8; but at 128 voxels the mean error in the L is 0.155% instead of 0.140%, which costs it order
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr double ball_radius = 3.5;
+constexpr float buckets_per_spacing = 16;  // so that the ring spans 4
+constexpr std::uint16_t all_axes = 7, boundary = 8;
+
+/** 4 over a whole number: the reciprocals of Σ s². */
+constexpr auto reciprocals = [] {
+  std::array<float, 28> table{};
+  for (int n = 1; n < 28; ++n) table[n] = 4.f / static_cast<float>(n);
+  return table;
+}();
+
+std::int32_t bucket_of(float distance) {
+  return static_cast<std::int32_t>(distance * buckets_per_spacing);
+}
 
 }  // namespace
 
@@ -19,177 +38,146 @@ FastMarching::FastMarching(const VoxelDomain& domain)
     : domain_(&domain),
       neighbors_(domain.face_neighbors()),
       accepted_(static_cast<std::size_t>(domain.size()) + 1),
-      places_(static_cast<std::size_t>(domain.size()) + 1) {
-  heap_.reserve(places_.size());
-  ball_.reserve(places_.size());
-}
-
-double FastMarching::solve(std::int32_t voxel) const {
-  const double distance = solve_upwind(voxel);
-  const auto none = static_cast<std::int32_t>(accepted_.size() - 1);
-  const std::int32_t* sides = &neighbors_[6 * std::size_t(voxel)];
-  const bool boundary = std::find(sides, sides + 6, none) != sides + 6;
-  return boundary ? solve_simplices(voxel, distance) : distance;
-}
-
-/** The upwind update at a voxel, from accepted values only. Along each axis the derivative is one-sided, of second order
- *  (3d − 4a + b)/2h where the next voxel b is accepted too and not above a (Sethian 1999, §8.4), else (d − a)/h: in both cases
- *  s·(d − t)/h, with s = 3/2, t = (4a − b)/3 or s = 1, t = a. */
-double FastMarching::solve_upwind(std::int32_t voxel) const {
-  struct Term {
-    double value, t, s2;
-  };
-  Term terms[3];
-  int count = 0;
-  const std::int32_t* sides = &neighbors_[6 * std::size_t(voxel)];
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int32_t low = sides[2 * axis], high = sides[2 * axis + 1];
-    const int side = accepted_[low] <= accepted_[high] ? 2 * axis : 2 * axis + 1;
-    const double a = accepted_[sides[side]];
-    if (a == infinity) continue;
-    const double b = accepted_[neighbors_[6 * std::size_t(sides[side]) + side]];
-    const Term term = b <= a ? Term{a, (4 * a - b) / 3, 2.25} : Term{a, a, 1};
-    int place = count++;
-    for (; place > 0 && terms[place - 1].value > term.value; --place) terms[place] = terms[place - 1];
-    terms[place] = term;
+      fresh_cells_(accepted_.size(), Cell{infinity, 0, 0, 0, 0, 0}) {
+  const auto none = static_cast<std::int32_t>(domain.size());
+  for (std::int32_t v = 0; v < none; ++v) {
+    const std::int32_t* sides = &neighbors_[6 * std::size_t(v)];
+    if (std::find(sides, sides + 6, none) != sides + 6) fresh_cells_[v].axes = boundary;
   }
+  fresh_cells_[none].axes = all_axes;  // "no voxel" is never updated
+}
 
-  // Σ s²(d − t)² = h², with the nearest axes first; an axis joins while the solution so far lies above it.
+void FastMarching::march(const Vector3& source, double* distances) {
+  std::fill(accepted_.begin(), accepted_.end(), infinity);
+  cells_ = fresh_cells_;
+  buckets_.fill(-1);
+  entries_.clear();
+  initialize(source);
+  for (; waiting_ > 0; ++current_) {
+    std::int32_t& bucket = buckets_[current_ % ring];
+    while (bucket >= 0) {
+      const Entry entry = entries_[bucket];
+      bucket = entry.next;
+      --waiting_;
+      if (accepted_[entry.voxel] == infinity) accept(entry.voxel);
+    }
+  }
   const double h = domain_->grid().spacing;
-  double s2 = 0, st = 0, stt = 0, d = infinity;
-  for (int n = 0; n < count && terms[n].value < d; ++n) {
-    const Term& term = terms[n];
-    s2 += term.s2, st += term.s2 * term.t, stt += term.s2 * term.t * term.t;
-    const double discriminant = st * st - s2 * (stt - h * h);
-    if (discriminant < 0) break;
-    const double next = (st + std::sqrt(discriminant)) / s2;
-    if (next < term.value) break;
-    d = next;
+  for (std::size_t v = 0; v + 1 < accepted_.size(); ++v) distances[v] = h * accepted_[v];
+}
+
+/** Euclidean distances in a ball about the source, over the voxels that are face-connected inside it to the one nearest the
+ *  source. */
+void FastMarching::initialize(const Vector3& source) {
+  const std::int32_t first = domain_->nearest(source);
+  if (first < 0) return;
+  const double h = domain_->grid().spacing;
+  const double nearest = (domain_->center(first) - source).norm() / h;
+  const double radius = std::max(ball_radius, nearest + 1);
+  current_ = bucket_of(static_cast<float>(nearest));
+  ball_.assign(1, first);
+  cells_[first].axes = all_axes;
+  for (std::size_t head = 0; head < ball_.size(); ++head) {
+    for (int side = 0; side < 6; ++side) {
+      const std::int32_t u = neighbors_[6 * std::size_t(ball_[head]) + side];
+      if (cells_[u].axes == all_axes || (domain_->center(u) - source).norm() > radius * h) continue;
+      cells_[u].axes = all_axes;
+      ball_.push_back(u);
+    }
   }
-  return d;
+  for (const std::int32_t v : ball_) {
+    cells_[v].d = static_cast<float>((domain_->center(v) - source).norm() / h);
+    push(v, bucket_of(cells_[v].d));
+  }
+}
+
+void FastMarching::push(std::int32_t voxel, std::int32_t bucket) {
+  std::int32_t& list = buckets_[std::clamp(bucket, current_, current_ + ring - 1) % ring];
+  entries_.push_back({voxel, list});
+  list = static_cast<std::int32_t>(entries_.size() - 1);
+  ++waiting_;
+}
+
+/** Neighbors of a voxel that has its final distance learn of it. Distances come in rising order, but for what a bucket holds, so
+ * that the first neighbor along an axis is the nearer one, the axis' term never changes, and a new term is the last of the sum. */
+void FastMarching::accept(std::int32_t voxel) {
+  const float distance = cells_[voxel].d;
+  accepted_[voxel] = distance;
+  const std::int32_t* sides = &neighbors_[6 * std::size_t(voxel)];
+  float around[6];
+  for (int side = 0; side < 6; ++side) around[side] = accepted_[sides[side]];
+  for (int axis = 0; axis < 3; ++axis) {
+    float shortcut = -1;  // along boundaries; the same for both neighbors
+    const auto bit = static_cast<std::uint16_t>(1 << axis);
+    for (int side = 2 * axis; side < 2 * axis + 2; ++side) {
+      if (around[side] != infinity) continue;
+      Cell& cell = cells_[sides[side]];
+      if (cell.axes == all_axes) continue;
+      const float before = cell.d;
+      if (!(cell.axes & bit)) {
+        join(cell, bit, distance, around[side ^ 1]);
+      } else if (!(cell.axes & boundary)) {
+        continue;
+      }
+      if (cell.axes & boundary) {
+        if (shortcut < 0) shortcut = simplices(sides, around, distance, axis);
+        cell.d = std::min(cell.d, shortcut);
+      }
+      if (cell.d >= before) continue;
+      const std::int32_t bucket = bucket_of(cell.d);
+      if (before == infinity || bucket != bucket_of(before)) push(sides[side], bucket);
+    }
+  }
+}
+
+/** The upwind update: an axis joins the equation Σ s²(d − t)² = 1, if its neighbor a lies below the solution so far. The derivative
+ * is one-sided, of second order (3d − 4a + b)/2 where the next voxel b is accepted too and not above a (Sethian 1999, §8.4), else
+ *  d − a: in both cases s·(d − t), with s = 3/2, t = (4a − b)/3 or s = 1, t = a. */
+void FastMarching::join(Cell& cell, std::uint16_t axis, float a, float b) const {
+  if (!(cell.axes & all_axes)) cell.base = a;
+  cell.axes |= axis;
+  if (a >= cell.d) return;
+  const float above = a - cell.base;
+  if (b <= a) {
+    const float t = above + (a - b) * (1.f / 3);
+    cell.fourfold += 9, cell.st += 2.25f * t, cell.stt += 2.25f * t * t;
+  } else {
+    cell.fourfold += 4, cell.st += above, cell.stt += above * above;
+  }
+  const float discriminant = cell.st * cell.st - 0.25f * cell.fourfold * (cell.stt - 1);
+  if (discriminant >= 0) {
+    const float next = cell.base + (cell.st + std::sqrt(discriminant)) * reciprocals[cell.fourfold];
+    if (next >= a) {
+      cell.d = std::min(cell.d, next);
+      return;
+    }
+  }
+  cell.axes |= all_axes;
 }
 
 /** Along a boundary the axes have no neighbors to look at, and a wave that creeps along a staircase takes every step the long way
  *  round: on a ring of 64 voxels the mean error is 2.0% without this update and 1.3% with it. So boundary voxels look at diagonal
  *  neighbors too: the least of linear interpolation plus Euclidean distance over the simplices face, edge, corner neighbor (w, u,
- *  c) of the 26-neighborhood (Tsitsiklis 1995). Only a chain of inside voxels is taken; only one of falling distances can hold the
- *  least. */
-double FastMarching::solve_simplices(std::int32_t voxel, double d) const {
-  const double h = domain_->grid().spacing;
-  for (int a = 0; a < 6; ++a) {
-    const std::int32_t w = neighbors_[6 * std::size_t(voxel) + a];
-    const double dw = accepted_[w];
-    if (dw >= d) continue;
-    for (int b = 0; b < 6; ++b) {
-      if (b / 2 == a / 2) continue;
-      const std::int32_t u = neighbors_[6 * std::size_t(w) + b];
-      const double du = accepted_[u];
-      if (du >= dw) continue;
-      const double p = (dw - du) / h;
-      d = std::min(d, 2 * p * p <= 1 ? dw + h * std::sqrt(1 - p * p) : du + h * std::numbers::sqrt2);
-      const int third = 2 * (3 - a / 2 - b / 2);
-      for (int c = third; c < third + 2; ++c) {
-        const double dc = accepted_[neighbors_[6 * std::size_t(u) + c]];
-        if (dc >= du) continue;
-        const double q = (du - dc) / h, r2 = 1 - p * p - q * q;
-        d = std::min(d, 3 * q * q <= 1 ? du + h * std::sqrt(2 - 2 * q * q) : dc + h * std::numbers::sqrt3);
-        if (q <= p && p * p <= r2) d = std::min(d, dw + h * std::sqrt(r2));
-      }
-    }
+ *  c) of the 26-neighborhood (Tsitsiklis 1995). Only a chain of inside voxels is taken, and only one of falling distances can hold
+ *  the least: so a voxel w that has just been accepted is the first of its chains, and has the same for both neighbors on an axis.
+ */
+float FastMarching::simplices(const std::int32_t* sides, const float* around, float dw, int axis) const {
+  float d = infinity;
+  for (int other = 1; other < 3; ++other) {
+    const int along = axis + other < 3 ? axis + other : axis + other - 3, third = 3 - axis - along;
+    const int b = around[2 * along] < around[2 * along + 1] ? 2 * along : 2 * along + 1;
+    const float du = around[b];
+    if (du >= dw) continue;
+    const float p = dw - du;
+    d = std::min(d, 2 * p * p <= 1 ? dw + std::sqrt(1 - p * p) : du + std::numbers::sqrt2_v<float>);
+    const std::int32_t* beyond = &neighbors_[6 * std::size_t(sides[b]) + 2 * third];
+    const float dc = std::min(accepted_[beyond[0]], accepted_[beyond[1]]);
+    if (dc >= du) continue;
+    const float q = du - dc, r2 = 1 - p * p - q * q;
+    d = std::min(d, 3 * q * q <= 1 ? du + std::sqrt(2 - 2 * q * q) : dc + std::numbers::sqrt3_v<float>);
+    if (q <= p && p * p <= r2) d = std::min(d, dw + std::sqrt(r2));
   }
   return d;
-}
-
-void FastMarching::march(const Vector3& source, double* distances) {
-  std::fill(accepted_.begin(), accepted_.end(), infinity);
-  std::fill(places_.begin(), places_.end(), unseen);
-  places_.back() = done;  // "no voxel" is never updated
-  heap_.clear();
-
-  initialize(source);
-  while (!heap_.empty()) {
-    double distance;
-    const std::int32_t voxel = pop(distance);
-    accept(voxel, distance);
-  }
-  std::copy(accepted_.begin(), accepted_.end() - 1, distances);
-}
-
-/** Euclidean distances in a ball about the source, over the voxels that are face-connected inside it to the one nearest the source.
- */
-void FastMarching::initialize(const Vector3& source) {
-  const std::int32_t first = domain_->nearest(source);
-  if (first < 0) return;
-  const double h = domain_->grid().spacing;
-  const double radius = std::max(ball_radius * h, (domain_->center(first) - source).norm() + h);
-  ball_.assign(1, first);
-  places_[first] = done;
-  for (std::size_t head = 0; head < ball_.size(); ++head) {
-    for (int side = 0; side < 6; ++side) {
-      const std::int32_t u = neighbors_[6 * std::size_t(ball_[head]) + side];
-      if (places_[u] == done || (domain_->center(u) - source).squaredNorm() > radius * radius) continue;
-      places_[u] = done;
-      ball_.push_back(u);
-    }
-  }
-  for (const std::int32_t v : ball_) accepted_[v] = (domain_->center(v) - source).norm();
-  for (const std::int32_t v : ball_) accept(v, accepted_[v]);
-}
-
-void FastMarching::accept(std::int32_t voxel, double distance) {
-  accepted_[voxel] = distance;
-  places_[voxel] = done;
-  for (int side = 0; side < 6; ++side) {
-    const std::int32_t u = neighbors_[6 * std::size_t(voxel) + side];
-    if (places_[u] != done) push(u, solve(u));
-  }
-}
-
-/** Gives a voxel its trial distance; a later update knows more accepted neighbors and replaces an earlier one, up or down. */
-void FastMarching::push(std::int32_t voxel, double distance) {
-  std::int32_t place = places_[voxel];
-  if (place == unseen) {
-    place = static_cast<std::int32_t>(heap_.size());
-    heap_.push_back({distance, voxel});
-    sift_up(place, distance, voxel);
-  } else if (distance < heap_[place].distance) {
-    sift_up(place, distance, voxel);
-  } else {
-    sift_down(place, distance, voxel);
-  }
-}
-
-std::int32_t FastMarching::pop(double& distance) {
-  const Trial top = heap_.front(), last = heap_.back();
-  heap_.pop_back();
-  if (!heap_.empty()) sift_down(0, last.distance, last.voxel);
-  distance = top.distance;
-  return top.voxel;
-}
-
-void FastMarching::sift_up(std::int32_t place, double distance, std::int32_t voxel) {
-  while (place > 0) {
-    const std::int32_t parent = (place - 1) / 2;
-    if (heap_[parent].distance <= distance) break;
-    heap_[place] = heap_[parent];
-    places_[heap_[place].voxel] = place;
-    place = parent;
-  }
-  heap_[place] = {distance, voxel};
-  places_[voxel] = place;
-}
-
-void FastMarching::sift_down(std::int32_t place, double distance, std::int32_t voxel) {
-  const auto size = static_cast<std::int32_t>(heap_.size());
-  for (std::int32_t child = 2 * place + 1; child < size; child = 2 * place + 1) {
-    if (child + 1 < size && heap_[child + 1].distance < heap_[child].distance) ++child;
-    if (heap_[child].distance >= distance) break;
-    heap_[place] = heap_[child];
-    places_[heap_[place].voxel] = place;
-    place = child;
-  }
-  heap_[place] = {distance, voxel};
-  places_[voxel] = place;
 }
 
 }  // namespace handlebody

@@ -1,6 +1,7 @@
 // Fast marching: the viscosity solution of the eikonal equation |∇d| = 1 on a voxel domain (Sethian 1996), second order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace handlebody {
 
-/** Reusable state for many sources on one domain: marching allocates nothing after the first call. The domain must
+/** Reusable state for many sources on one domain: marching allocates nothing after the first calls. The domain must
  *  outlive it. */
 class FastMarching {
  public:
@@ -21,27 +22,33 @@ class FastMarching {
   void march(const Vector3& source, double* distances);
 
  private:
-  double solve(std::int32_t voxel) const;
-  double solve_upwind(std::int32_t voxel) const;
-  double solve_simplices(std::int32_t voxel, double distance) const;
-  void initialize(const Vector3& source);
-  void accept(std::int32_t voxel, double distance);
-  void push(std::int32_t voxel, double distance);
-  void sift_up(std::int32_t place, double distance, std::int32_t voxel);
-  void sift_down(std::int32_t place, double distance, std::int32_t voxel);
-  std::int32_t pop(double& distance);
-
-  struct Trial {
-    double distance;
-    std::int32_t voxel;
+  // A voxel before it is accepted: its trial distance, and of the equation that gave it Σ s²(t − base) and Σ s²(t − base)², where
+  // `base` is the first neighbor's distance. `axes` has a bit for each axis that has its term, and one for voxels on the boundary;
+  // `fourfold` is 4 Σ s².
+  struct Cell {
+    float d, base, st, stt;
+    std::uint16_t axes, fourfold;
   };
+  struct Entry {
+    std::int32_t voxel, next;
+  };
+  static constexpr int ring = 64;  // buckets
+
+  void initialize(const Vector3& source);
+  void accept(std::int32_t voxel);
+  void join(Cell& cell, std::uint16_t axis, float a, float b) const;
+  float simplices(const std::int32_t* sides, const float* around, float dw, int axis) const;
+  void push(std::int32_t voxel, std::int32_t bucket);
 
   const VoxelDomain* domain_;
   std::vector<std::int32_t> neighbors_;  // VoxelDomain::face_neighbors()
-  std::vector<double> accepted_;         // final distances, +infinity elsewhere and at the row that stands for "no voxel"
-  std::vector<std::int32_t> places_;     // of each voxel in the heap, or `unseen`, or `done`
-  std::vector<Trial> heap_;
+  std::vector<float> accepted_;         // final distances, +infinity elsewhere and at the row that stands for "no voxel"
+  std::vector<Cell> cells_, fresh_cells_;
   std::vector<std::int32_t> ball_;  // the voxels that start exact
+  std::array<std::int32_t, ring> buckets_;  // the first entry of each list, or -1
+  std::vector<Entry> entries_;              // all that were ever pushed
+  std::int32_t current_ = 0;                // the bucket that is being emptied
+  std::size_t waiting_ = 0;                 // in all buckets
 };
 
 }  // namespace handlebody

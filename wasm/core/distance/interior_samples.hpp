@@ -31,6 +31,18 @@ class InteriorSamples {
     }
   }
 
+  /** The same distance without the ratios, for few points. */
+  template <typename Interior>
+  double distance_from(const Vector3& center, const Interior& interior, Index i) const {
+    const auto row = static_cast<std::size_t>(i);
+    double ratio = 0;
+    for (std::size_t k = offsets_[row]; k < offsets_[row + 1]; ++k) {
+      const double euclidean = (places_[slots_[k]] - center).norm();
+      ratio += weights_[k] * (euclidean > 0 ? interior(voxels_[slots_[k]]) / euclidean : 1);
+    }
+    return std::max(ratio, 1.0) * (points_[row] - center).norm();
+  }
+
   /** Interior distance of point i from `center`, whose ratios are given; at least the Euclidean distance. */
   double distance(const std::vector<double>& ratios, const Vector3& center, Index i) const {
     const auto row = static_cast<std::size_t>(i);

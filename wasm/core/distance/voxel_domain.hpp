@@ -47,7 +47,7 @@ class VoxelDomain {
   std::int32_t number(int i, int j, int k) const;
 
   /** Compact number of the voxel whose center is nearest to `point` (the lowest of equals), or -1 if the domain is empty. The
-   *  search goes outward from the point, so it is quick near the domain. */
+   *  search goes outward from the point, so it is quick near the domain, and by blocks of 8³ voxels far away. */
   std::int32_t nearest(const Vector3& point) const;
 
   /** Compact numbers of the six face neighbors of each voxel, in the order -x +x -y +y -z +z; `size()` stands for none. One more
@@ -57,7 +57,8 @@ class VoxelDomain {
  private:
   Grid grid_;
   std::vector<std::uint32_t> voxels_;
-  std::vector<std::int32_t> numbers_;  // grid.size() entries
+  std::vector<std::int32_t> numbers_;                // grid.size() entries
+  std::vector<std::array<std::int32_t, 3>> blocks_;  // that hold voxels, by their first cells
 };
 
 /** The face-connected part that each voxel belongs to, numbered from 0 in the order of their first voxels. */

@@ -4,12 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "core/distance/filled_shell.hpp"
+#include "core/irbf/sphere_tree.hpp"
+#include "core/numerics/sort.hpp"
+
 namespace handlebody {
 
 namespace {
 
-/** Work of a bounded step: enough to be worth a call, little enough for a frame. */
-constexpr std::size_t points_per_step = 1024;
+// Work of a bounded step: enough to be worth a call, little enough for a frame.
+constexpr Index points_per_step = 1024, triangles_per_step = 4096, codes_per_step = 1 << 20;
+constexpr double far_outside = 1.5;  // spacings beyond which stencils hold on to the nearest voxel
+constexpr int highest_resolution = 512;
+// An open sheet winds about the points on its hollow side a little more than half; an inside has at least a fourth of it
+// surrounded.
+constexpr double surely = 0.75;
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
@@ -18,47 +27,119 @@ Error invalid_option(const char* name, Index value, Index low, Index high) {
           HB_CULPRIT_OPTION};
 }
 
-}  // namespace
-
-Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, const BakeOptions& options) {
+Result<Done> check_options(const BakeOptions& options, Index vertices) {
   if (options.centers < 1 || options.centers > 5000) return invalid_option("number of centers", options.centers, 1, 5000);
-  if (options.resolution < 8 || options.resolution > 512) return invalid_option("resolution", options.resolution, 8, 512);
+  if (options.resolution < 8 || options.resolution > highest_resolution) {
+    return invalid_option("resolution", options.resolution, 8, highest_resolution);
+  }
   if (options.max_spheres < 1 || options.max_spheres > 2000) {
     return invalid_option("number of spheres", options.max_spheres, 1, 2000);
   }
-  if (auto checked = check_mesh(positions, triangles); !checked) return checked.error();
+  if (!options.density.empty() && static_cast<Index>(options.density.size()) != vertices) {
+    return Error(HB_ERROR_INVALID_SHAPE, {"There are ", options.density.size(), " densities for ", vertices, " vertices."},
+                 {"Give one number a vertex, 1 where nothing special is wanted."}, HB_CULPRIT_OPTION);
+  }
+  for (std::size_t v = 0; v < options.density.size(); ++v) {
+    if (options.density[v] >= 1e-6 && options.density[v] <= 1e6) continue;
+    return Error(HB_ERROR_INVALID_OPTION, {"The density of vertex ", v, " is ", options.density[v], "."},
+                 {"Use numbers from 0.000001 to 1000000, 1 where nothing special is wanted."}, HB_CULPRIT_VERTEX,
+                 static_cast<std::int64_t>(v));
+  }
+  return Done{};
+}
+
+/** The domain that was given, in solver space. */
+Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& voxels, const Normalization& normalization) {
+  const double cells = double(model.dims[0]) * double(model.dims[1]) * double(model.dims[2]);
+  if (model.dims[0] < 1 || model.dims[1] < 1 || model.dims[2] < 1 || cells > 64e6 || !model.origin.allFinite() ||
+      !(model.spacing > 0) || !std::isfinite(model.spacing)) {
+    return Error(HB_ERROR_INVALID_SHAPE,
+                 {"The voxel volume has no origin and spacing that are finite, or not 1 to 64 million voxels."},
+                 {"Give dimensions, spacing and origin of the volume."});
+  }
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    if (voxels[v] < cells && (v == 0 || voxels[v] > voxels[v - 1])) continue;
+    return Error(HB_ERROR_INVALID_SHAPE, {"The voxels inside are not ascending indices into the volume."},
+                 {"Give each once, in rising order."});
+  }
+  return Grid{normalization.to_solver(model.origin), model.spacing / normalization.diagonal, model.dims};
+}
+
+}  // namespace
+
+// Out of line: there is a lot to move and to destroy.
+Bake::Bake() = default;
+Bake::Bake(Bake&&) noexcept = default;
+Bake::~Bake() = default;
+
+Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options) {
+  if (auto checked = check_options(options, positions.rows()); !checked) return checked.error();
+  if (auto checked = check_mesh(positions, triangles, options.cloud); !checked) return checked.error();
+  if (options.cloud && options.method == DistanceMethod::mean_value) {
+    return Error(HB_ERROR_MESH_NO_TRIANGLES, {"Mean value distances go along a surface, and a point cloud has none."},
+                 {"Use another distance, or give a closed mesh."});
+  }
 
   Bake bake;
-  bake.options_ = options;
+  bake.options_ = std::move(options);
   bake.body_.positions = positions;
   bake.body_.triangles = triangles;
   bake.body_.normalization = normalize(positions);
-  bake.solver_positions_ = bake.body_.solver_positions();
   bake.weld_ = weld_vertices(positions);
-  bake.options_.centers = std::min(options.centers, static_cast<Index>(bake.weld_.unique.size()));
-  const Vector3 low = bake.solver_positions_.colwise().minCoeff();
-  const Vector3 high = bake.solver_positions_.colwise().maxCoeff();
-  auto grid = make_grid(low, high, options.resolution);
+  const auto vertices = static_cast<Index>(bake.weld_.unique.size());
+  bake.options_.centers = std::min(bake.options_.centers, vertices);
+  bake.solver_positions_.resize(vertices, 3);
+  for (Index v = 0; v < vertices; ++v) {
+    bake.solver_positions_.row(v) =
+        bake.body_.normalization.to_solver(positions.row(bake.weld_.unique[static_cast<std::size_t>(v)]).transpose());
+  }
+  bake.triangles_ = weld_triangles(bake.weld_, triangles);
+  if (bake.options_.cloud) {  // a point is a triangle without extent, to be near to
+    bake.triangles_.resize(vertices, 3);
+    for (Index v = 0; v < vertices; ++v) bake.triangles_.row(v).setConstant(static_cast<std::uint32_t>(v));
+  }
+  const Vector3 low = bake.solver_positions_.colwise().minCoeff(), high = bake.solver_positions_.colwise().maxCoeff();
+  const auto& given = bake.options_.grid;
+  auto grid =
+      given ? solver_grid(*given, bake.options_.voxels, bake.body_.normalization) : make_grid(low, high, bake.options_.resolution);
   if (!grid) return grid.error();
   bake.grid_ = *grid;
-  bake.tree_.emplace(bake.solver_positions_, triangles);
   return bake;
 }
 
 Result<double> Bake::step() {
   switch (phase_) {
+    case Phase::orient:
+      orient();
+      break;
+    case Phase::cross:
+      if (cross_triangles(0)) phase_ = Phase::voxelize;
+      break;
     case Phase::voxelize:
-      if (auto done = voxelize_slab(); !done) return done.error();
+      voxelize_slab();
+      break;
+    case Phase::fill:
+      if (auto done = fill(); !done) return done.error();
       break;
     case Phase::domain:
       if (auto done = make_domain(); !done) return done.error();
       break;
-    case Phase::surface_distance:
-      measure_surface_distances();
+    case Phase::link:
+      link_axis();
+      break;
+    case Phase::depth:
+      measure_depth();
       break;
     case Phase::spheres:
-      pack();
+      if (auto done = pack(); !done) return done.error();
       break;
+    case Phase::prepare: {
+      auto done = distance_->step();
+      if (!done) return done.error();
+      prepared_ = *done;
+      if (prepared_ >= 1) phase_ = Phase::stencils;
+      break;
+    }
     case Phase::stencils:
       sample_vertices();
       break;
@@ -74,28 +155,97 @@ Result<double> Bake::step() {
   return progress();
 }
 
-Result<Done> Bake::voxelize_slab() {
-  // A point is inside where the surface winds about it at least half, whichever way its parts are oriented: open models leak
-  // little.
-  for (int j = 0; j < grid_.dims[1]; ++j) {
-    for (int i = 0; i < grid_.dims[0]; ++i) {
-      const std::int64_t voxel = grid_.linear(i, j, slab_);
-      if (std::abs(tree_->winding_number(grid_.center(voxel))) > 0.5) inside_.push_back(static_cast<std::uint32_t>(voxel));
-    }
+void Bake::orient() {
+  if (surface()) {
+    orientation_ = orient_consistently(solver_positions_, triangles_);
+    if (orientation_.inside_out) warnings_.push_back({HB_WARNING_MESH_INSIDE_OUT, triangles_.rows()});
+    if (orientation_.turned > 0) warnings_.push_back({HB_WARNING_ORIENTATION_MIXED, orientation_.turned});
   }
-  if (++slab_ == grid_.dims[2]) phase_ = Phase::domain;
+  tree_.emplace(solver_positions_, triangles_);
+  if (options_.grid) inside_ = std::move(options_.voxels);
+  phase_ = options_.grid ? Phase::domain : options_.cloud ? Phase::fill : Phase::cross;
+}
+
+/** Some triangles' crossings with lines along an axis. True when all are there, or are too many to keep. */
+bool Bake::cross_triangles(int axis) {
+  if (uncounted_ || crossed_axis_ == axis) return true;
+  if (next_ == 0) crossings_.emplace(grid_, axis);
+  for (const Index end = std::min(triangles_.rows(), next_ + triangles_per_step); next_ < end && !uncounted_; ++next_) {
+    uncounted_ = !crossings_->add(solver_positions_, triangles_.row(next_).data());
+  }
+  if (next_ < triangles_.rows() && !uncounted_) return false;
+  crossings_->finish();
+  crossed_axis_ = axis;
+  next_ = 0;
+  return true;
+}
+
+void Bake::voxelize_slab() {
+  if (orientation_.closed && !uncounted_) {
+    inside_ = enclosed_voxels(grid_, *crossings_);
+    sure_ = inside_.size();
+    next_ = grid_.dims[2];
+  } else {
+    for (int j = 0; j < grid_.dims[1]; ++j) {
+      for (int i = 0; i < grid_.dims[0]; ++i) {
+        const std::int64_t voxel = grid_.linear(i, j, static_cast<int>(next_));
+        const double winding = std::abs(tree_->winding_number(grid_.center(voxel)));
+        if (winding > 0.5) inside_.push_back(static_cast<std::uint32_t>(voxel));
+        if (winding > surely) ++sure_;
+      }
+    }
+    ++next_;
+  }
+  if (next_ < grid_.dims[2]) return;
+  next_ = 0;
+  phase_ = sure_ == 0 || 4 * sure_ < inside_.size() ? Phase::fill : Phase::domain;
+}
+
+/** What a shell of voxels encloses, where winding numbers do not tell; for a sheet, the shell itself. */
+Result<Done> Bake::fill() {
+  if (surface() && axis_ < 3) {
+    if (!cross_triangles(axis_)) return Done{};
+    crossed_voxels(grid_, *crossings_, crossed_);
+    ++axis_;
+    return Done{};
+  }
+  for (Index v = 0; v < solver_positions_.rows(); ++v) {
+    const Vector3 cell = (solver_positions_.row(v).transpose() - grid_.origin) / grid_.spacing;
+    crossed_.push_back(
+        static_cast<std::uint32_t>(grid_.linear(int(std::lround(cell[0])), int(std::lround(cell[1])), int(std::lround(cell[2])))));
+  }
+  inside_ = filled_shell(grid_, crossed_);
+  if (!inside_.empty()) {
+    if (surface()) warnings_.push_back({HB_WARNING_SURFACE_FILLED, orientation_.open_edges});
+  } else if (options_.method == DistanceMethod::euclidean) {
+    warnings_.push_back({HB_WARNING_SURFACE_OPEN, orientation_.open_edges});
+    sheet_ = true;
+    inside_ = std::move(crossed_);
+    sort(inside_, [](std::uint32_t u, std::uint32_t v) { return u < v; });
+    inside_.erase(std::unique(inside_.begin(), inside_.end()), inside_.end());
+  } else if (options_.cloud) {
+    return Error(
+        HB_ERROR_CLOUD_TOO_SPARSE,
+        {"The ", solver_positions_.rows(), " points leave gaps that ", options_.resolution, " voxels along the longest side show."},
+        {"Give a denser cloud, a coarser resolution, or a mesh."});
+  } else {
+    return Error(HB_ERROR_MESH_NO_INTERIOR, {"No voxel of the ", options_.resolution, "-voxel grid lies inside the model."},
+                 {"Close the surface if it is an open sheet, or raise the resolution if the model is thin; Euclidean distances "
+                  "need no inside."});
+  }
+  axis_ = 0;
+  crossed_ = {};
+  phase_ = Phase::domain;
   return Done{};
 }
 
 Result<Done> Bake::make_domain() {
   if (inside_.empty()) {
-    return Error(HB_ERROR_MESH_NO_INTERIOR, {"No voxel of the ", options_.resolution, "-voxel grid lies inside the model."},
-                 {"Close the surface if it is an open sheet, or raise the resolution if the model is thin."});
+    return Error(HB_ERROR_MESH_NO_INTERIOR, {"The volume has no voxel that is inside."}, {"Mark the voxels inside with 1."});
   }
   std::vector<std::uint32_t> unbridged = inside_;
   bridge_components(grid_, inside_);
-  const double bytes =
-      static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * (sizeof(float) + sizeof(std::uint16_t));
+  const double bytes = static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * sizeof(std::uint16_t);
   if (bytes > 2e9) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
                  {options_.centers, " centers × ", inside_.size(), " voxels would take ", static_cast<int>(bytes / 1e6), " MB."},
@@ -106,101 +256,165 @@ Result<Done> Bake::make_domain() {
   std::transform(inside_.begin(), inside_.end(), on_bridge_.begin(),
                  [&](std::uint32_t voxel) { return !std::binary_search(unbridged.begin(), unbridged.end(), voxel); });
   body_.domain = VoxelDomain(grid_, std::move(inside_));
-  phase_ = Phase::surface_distance;
+  phase_ = surface() && !sheet_ ? Phase::link : Phase::depth;
   return Done{};
 }
 
-void Bake::measure_surface_distances() {
-  const std::size_t count = body_.domain.voxels().size();
-  const std::size_t end = std::min(count, surface_distance_.size() + points_per_step);
-  for (std::size_t v = surface_distance_.size(); v < end; ++v) {
-    surface_distance_.push_back(on_bridge_[v] ? 0 : tree_->distance(body_.domain.center(static_cast<Index>(v))));
+void Bake::link_axis() {
+  if (axis_ < 3 && !uncounted_) {
+    if (!cross_triangles(axis_)) return;
+    if (!uncounted_) find_crossed_links(body_.domain, *crossings_, orientation_.closed, links_);
+    ++axis_;
+    return;
+  }
+  crossings_.reset();
+  const MergedLimbs merged = find_merged_limbs(body_.domain, links_);
+  links_ = {};
+  if (merged.links > 0) {
+    // The voxel must fit into the gap, wherever it falls.
+    const double finer = std::ceil(1.2 * options_.resolution / std::max(merged.gap, 1e-6));
+    warnings_.push_back({HB_WARNING_LIMBS_MERGED, merged.links, finer <= highest_resolution ? finer : 0,
+                         body_.normalization.to_model(merged.place)});
+  }
+  phase_ = Phase::depth;
+}
+
+void Bake::measure_depth() {
+  const auto count = static_cast<std::size_t>(body_.domain.size());
+  const std::size_t end = sheet_ ? count : std::min(count, depth_.size() + points_per_step);
+  for (std::size_t v = depth_.size(); v < end; ++v) {
+    depth_.push_back(sheet_ || on_bridge_[v] ? 0 : tree_->distance(body_.domain.center(static_cast<Index>(v))));
   }
   if (end == count) phase_ = Phase::spheres;
 }
 
-void Bake::pack() {
+Result<Done> Bake::pack() {
   SpherePackingOptions packing;
   packing.max_spheres = options_.max_spheres;
-  body_.spheres = pack_spheres(body_.domain, surface_distance_, packing);
-  phase_ = Phase::stencils;
+  body_.spheres = sheet_                                    ? spread_spheres(body_.domain, options_.max_spheres)
+                  : options_.packing == SpherePacking::tree ? sphere_tree(body_.domain, depth_, packing)
+                                                            : pack_spheres(body_.domain, depth_, packing);
+  // A part whose only voxels lie on its surface still gets a sphere that has an extent.
+  for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * grid_.spacing);
+  tree_.reset();
+  depth_ = {};
+  auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, triangles_);
+  if (!distance) return distance.error();
+  distance_ = std::move(*distance);
+  phase_ = Phase::prepare;
+  return Done{};
 }
 
 void Bake::sample_vertices() {
-  const std::size_t count = weld_.unique.size();
-  const std::size_t end = std::min(count, static_cast<std::size_t>(samples_.size()) + points_per_step);
-  for (auto v = static_cast<std::size_t>(samples_.size()); v < end; ++v) {
-    samples_.add(body_.domain, solver_positions_.row(weld_.unique[v]).transpose());
+  const Index count = solver_positions_.rows();
+  for (const Index end = std::min(count, samples_.size() + points_per_step); samples_.size() < end;) {
+    const Index v = samples_.size();
+    const Vector3 place = solver_positions_.row(v).transpose();
+    samples_.add(body_.domain, place);
+    const double far = (body_.domain.center(body_.domain.nearest(place)) - place).norm();
+    if (far <= far_outside * grid_.spacing) continue;
+    ++outside_;
+    if (far > how_far_outside_) how_far_outside_ = far, farthest_outside_ = v;
   }
-  if (end < count) return;
+  if (samples_.size() < count) return;
+  if (outside_ > 0) {
+    const std::uint32_t vertex = weld_.unique[static_cast<std::size_t>(farthest_outside_)];
+    warnings_.push_back({HB_WARNING_PART_OUTSIDE, outside_, how_far_outside_ * body_.normalization.diagonal,
+                         Vector3(body_.positions.row(vertex).transpose()), static_cast<Index>(vertex)});
+  }
 
-  // Farthest-point sampling (§4.3) starts at the vertex farthest from the middle of the box.
-  Index farthest = 0;
-  double best = -1;
-  for (std::size_t v = 0; v < count; ++v) {
-    const double distance = solver_positions_.row(weld_.unique[v]).squaredNorm();
-    if (distance > best) best = distance, farthest = static_cast<Index>(v);
+  // Farthest-point sampling (§4.3) starts at the vertex farthest from the middle of the box. Centers as dense by a factor are
+  // closer by its root, on a surface: so much farther does a vertex count.
+  const auto vertices = static_cast<std::size_t>(count);
+  coverage_.assign(vertices, std::numeric_limits<double>::infinity());
+  weight_.assign(vertices, 1);
+  if (!options_.density.empty()) {
+    for (std::size_t v = 0; v < vertices; ++v) weight_[v] = std::sqrt(options_.density[weld_.unique[v]]);
   }
-  next_center_ = farthest;
-  coverage_.assign(count, std::numeric_limits<double>::infinity());
-  marching_.emplace(body_.domain);
-  field_.resize(body_.domain.voxels().size());
-  fields_.reserve(field_.size() * static_cast<std::size_t>(options_.centers));
+  double best = -1;
+  for (Index v = 0; v < count; ++v) {
+    const double distance = weight_[v] * weight_[v] * solver_positions_.row(v).squaredNorm();
+    if (distance > best) best = distance, next_center_ = v;
+  }
+  field_.resize(static_cast<std::size_t>(body_.domain.size()));
+  body_.distances.reserve(field_.size() * static_cast<std::size_t>(options_.centers));
   phase_ = Phase::centers;
 }
 
 void Bake::add_center() {
   body_.centers.push_back(weld_.unique[static_cast<std::size_t>(next_center_)]);
   const Vector3 center = samples_.point(next_center_);
-  if (options_.method == DistanceMethod::fast_marching) {
-    marching_->march(center, field_.data());
-  } else {
-    for (std::size_t v = 0; v < field_.size(); ++v) field_[v] = (body_.domain.center(static_cast<Index>(v)) - center).norm();
-  }
-  for (const double distance : field_) fields_.push_back(static_cast<float>(distance));
+  distance_->measure(center, field_.data());
 
-  // The next center is the vertex that is farthest, inside the body, from all so far.
-  samples_.distance_ratios(
-      center, [&](std::uint32_t v) { return field_[v]; }, ratios_);
-  Index farthest = 0;
-  for (Index v = 0; v < samples_.size(); ++v) {
-    double& coverage = coverage_[static_cast<std::size_t>(v)];
-    coverage = std::min(coverage, samples_.distance(ratios_, center, v));
-    if (coverage > coverage_[static_cast<std::size_t>(farthest)]) farthest = v;
+  // Codes to this center's own scale, so that no floats have to be kept until the longest distance is known. Bridges make the
+  // domain connected; should a voxel still be out of reach, it is as far as can be.
+  double longest = 1e-9;
+  for (const double distance : field_) {
+    if (distance > longest && distance <= std::numeric_limits<double>::max()) longest = distance;
   }
-  next_center_ = farthest;
-  if (static_cast<Index>(body_.centers.size()) == options_.centers) phase_ = Phase::quantize;
+  scales_.push_back(longest / 65535);
+  for (const double distance : field_) {
+    body_.distances.push_back(static_cast<std::uint16_t>(std::min(distance, longest) * (65535 / longest) + 0.5));
+  }
+
+  // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices that lie nearer to the new one
+  // as the crow flies than to any before can come nearer to it.
+  const auto interior = [&](std::uint32_t v) { return field_[v]; };
+  waiting_.clear();
+  for (Index v = 0; v < samples_.size(); ++v) {
+    if ((samples_.point(v) - center).squaredNorm() < coverage_[v] * coverage_[v]) waiting_.push_back(v);
+  }
+  const bool many = 4 * waiting_.size() > coverage_.size();
+  if (many) samples_.distance_ratios(center, interior, ratios_);
+  for (const Index v : waiting_) {
+    const double distance = many ? samples_.distance(ratios_, center, v) : samples_.distance_from(center, interior, v);
+    coverage_[v] = std::min(coverage_[v], distance);
+  }
+  next_center_ = 0;
+  for (Index v = 1; v < samples_.size(); ++v) {
+    if (coverage_[v] * weight_[v] > coverage_[next_center_] * weight_[next_center_]) next_center_ = v;
+  }
+  if (static_cast<Index>(body_.centers.size()) < options_.centers) return;
+  body_.distance_scale = *std::max_element(scales_.begin(), scales_.end());
+  next_ = 0;
+  phase_ = Phase::quantize;
 }
 
+/** All centers' codes to one scale, which rounds them once more: they are off by one code at most. */
 void Bake::quantize() {
-  float longest = 0;
-  for (const float distance : fields_) {
-    if (std::isfinite(distance)) longest = std::max(longest, distance);
+  const auto row = static_cast<Index>(field_.size());
+  for (Index done = 0; done < codes_per_step && next_ < options_.centers; done += row, ++next_) {
+    const double factor = scales_[next_] / body_.distance_scale;
+    std::uint16_t* codes = body_.distances.data() + next_ * row;
+    for (Index v = 0; v < row; ++v) codes[v] = static_cast<std::uint16_t>(codes[v] * factor + 0.5);
   }
-  // Bridges make the domain connected; should a voxel still be out of reach, it is as far as can be.
-  body_.distance_scale = std::max(static_cast<double>(longest), 1e-9) / 65535;
-  body_.distances.resize(fields_.size());
-  std::transform(fields_.begin(), fields_.end(), body_.distances.begin(), [&](float distance) {
-    return static_cast<std::uint16_t>(std::lround(std::min(distance, longest) / body_.distance_scale));
-  });
-  fields_ = {};
-  phase_ = Phase::finished;
+  if (next_ == options_.centers) phase_ = Phase::finished;
 }
 
 double Bake::progress() const {
   // Shares of the time on the dog with 200 centers at 96 voxels, native.
-  const auto part = [](auto done, auto all) { return static_cast<double>(done) / static_cast<double>(all); };
+  const auto part = [](auto done, auto all) { return static_cast<double>(done) / std::max(1.0, static_cast<double>(all)); };
   switch (phase_) {
+    case Phase::orient:
+      return 0;
+    case Phase::cross:
+      return 0.10 + 0.02 * part(next_, triangles_.rows());
     case Phase::voxelize:
-      return 0.30 * part(slab_, grid_.dims[2]);
+      return 0.12 + 0.02 * part(next_, grid_.dims[2]);
+    case Phase::fill:
+      return 0.14;
     case Phase::domain:
-      return 0.30;
-    case Phase::surface_distance:
-      return 0.30 + 0.05 * part(surface_distance_.size(), body_.domain.voxels().size());
+      return 0.15;
+    case Phase::link:
+      return 0.15 + 0.01 * axis_;
+    case Phase::depth:
+      return 0.18 + 0.08 * part(depth_.size(), body_.domain.size());
     case Phase::spheres:
-      return 0.35;
+      return 0.26;
+    case Phase::prepare:
+      return 0.27 + 0.05 * prepared_;
     case Phase::stencils:
-      return 0.36 + 0.04 * part(samples_.size(), weld_.unique.size());
+      return 0.32 + 0.08 * part(samples_.size(), solver_positions_.rows());
     case Phase::centers:
       return 0.40 + 0.59 * part(body_.centers.size(), options_.centers);
     case Phase::quantize:

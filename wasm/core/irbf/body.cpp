@@ -24,13 +24,16 @@ Vector3 Body::center_position(Index center) const {
   return normalization.to_solver(positions.row(centers[static_cast<std::size_t>(center)]).transpose());
 }
 
-Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles) {
-  if (positions.rows() > most_vertices || triangles.rows() > most_triangles) {
-    return Error(HB_ERROR_MESH_TOO_LARGE,
-                 {"The mesh has ", positions.rows(), " vertices and ", triangles.rows(),
-                  " triangles; the solver takes up to 4 million and 8 million."},
-                 {"Simplify the mesh first."});
-  }
+Result<Done> check_mesh_size(std::int64_t vertices, std::int64_t triangles) {
+  if (vertices <= most_vertices && triangles <= most_triangles) return Done{};
+  return Error(
+      HB_ERROR_MESH_TOO_LARGE,
+      {"The mesh has ", vertices, " vertices and ", triangles, " triangles; the solver takes up to 4 million and 8 million."},
+      {"Simplify the mesh first."});
+}
+
+Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles, bool cloud) {
+  if (auto checked = check_mesh_size(positions.rows(), triangles.rows()); !checked) return checked.error();
   if (positions.rows() < fewest_vertices) {
     return Error(
         HB_ERROR_MESH_TOO_FEW_VERTICES,
@@ -42,9 +45,9 @@ Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& tria
     return Error(HB_ERROR_MESH_NOT_FINITE, {"Vertex ", v, " has a coordinate that is not a finite number."},
                  {"Repair or remove that vertex and export the model again."}, HB_CULPRIT_VERTEX, v);
   }
-  if (triangles.rows() == 0) {
+  if (triangles.rows() == 0 && !cloud) {
     return Error(HB_ERROR_MESH_NO_TRIANGLES, {"The mesh has no triangles, so it encloses no volume."},
-                 {"Give a triangle mesh; lines and loose points cannot be deformed."});
+                 {"Give a triangle mesh, or a dense point cloud: positions without a list of triangles."});
   }
   for (Index t = 0; t < triangles.rows(); ++t) {
     const std::uint32_t highest = triangles.row(t).maxCoeff();
@@ -71,7 +74,7 @@ Normalization normalize(const ConstPoints& positions) {
 }
 
 Result<Done> check_body(const Body& body) {
-  if (auto checked = check_mesh(body.positions, body.triangles); !checked) return checked.error();
+  if (auto checked = check_mesh(body.positions, body.triangles, true); !checked) return checked.error();
   const Normalization& normalization = body.normalization;
   if (!normalization.center.allFinite() || !std::isfinite(normalization.diagonal) || normalization.diagonal <= 0) {
     return invalid_body({"The baked body's normalization is not a finite center and a positive diagonal."});

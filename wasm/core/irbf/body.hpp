@@ -35,8 +35,12 @@ struct Body {
   Vector3 center_position(Index center) const;
 };
 
-/** Checks that a mesh can be baked or deformed at all: sizes, finiteness, index ranges, extent. */
-Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles);
+/** Checks that a mesh is not too large to bake or deform, by its counts alone: before anything is allocated for it. */
+Result<Done> check_mesh_size(std::int64_t vertices, std::int64_t triangles);
+
+/** Checks that a mesh, or a cloud of points without triangles, can be baked or deformed at all: sizes, finiteness, index ranges,
+ *  extent. */
+Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& triangles, bool cloud = false);
 
 /** The normalization of a checked mesh. */
 Normalization normalize(const ConstPoints& positions);

@@ -58,6 +58,15 @@ bool is_medial(const VoxelDomain& domain, const std::vector<double>& surface_dis
 
 std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
                                  const SpherePackingOptions& options) {
+  std::vector<std::uint8_t> medial(surface_distance.size());
+  for (std::size_t v = 0; v < medial.size(); ++v) {
+    medial[v] = is_medial(domain, surface_distance, static_cast<std::int32_t>(v), options.medial_slope);
+  }
+  return pack_candidates(domain, surface_distance, options, medial);
+}
+
+std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector<double>& surface_distance,
+                                    const SpherePackingOptions& options, const std::vector<std::uint8_t>& candidates) {
   const std::vector<std::int32_t> component = face_components(domain);
   std::int64_t waiting =
       component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;  // parts without a sphere
@@ -71,7 +80,7 @@ std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<do
     const bool room = static_cast<std::int64_t>(spheres.size()) + waiting < options.max_spheres && sphere.radius >= min_radius;
     if (waiting == 0 && !room) break;  // the radii only fall from here on
     if (!first_of_part) {
-      if (!room || covered[v] || !is_medial(domain, surface_distance, v, options.medial_slope)) continue;
+      if (!room || covered[v] || !candidates[v]) continue;
       const auto too_close = [&](const Sphere& other) {
         const double gap = sphere.radius + other.radius - options.max_overlap * std::min(sphere.radius, other.radius);
         return (sphere.center - other.center).squaredNorm() < gap * gap;
@@ -82,6 +91,27 @@ std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<do
     if (first_of_part) served[component[v]] = true, --waiting;
     if (options.max_overlap <= 1) cover(domain, sphere, covered);
   }
+  return spheres;
+}
+
+std::vector<Sphere> spread_spheres(const VoxelDomain& domain, int count) {
+  std::vector<Sphere> spheres;
+  const auto voxels = static_cast<std::size_t>(domain.size());
+  std::vector<double> nearest(voxels, 1e300);
+  std::size_t next = 0;
+  for (std::size_t n = std::min(voxels, static_cast<std::size_t>(count)); n > 0; --n) {
+    const Vector3 center = domain.center(static_cast<Index>(next));
+    spheres.push_back({center, 0});
+    for (std::size_t v = 0; v < voxels; ++v) {
+      nearest[v] = std::min(nearest[v], (domain.center(static_cast<Index>(v)) - center).norm());
+      if (nearest[v] > nearest[next]) next = v;
+    }
+  }
+  double gap = 2 * domain.grid().spacing;
+  for (std::size_t s = 0; s < spheres.size(); ++s) {
+    for (std::size_t t = 0; t < s; ++t) gap = std::min(gap, (spheres[s].center - spheres[t].center).norm());
+  }
+  for (Sphere& sphere : spheres) sphere.radius = 0.45 * gap;
   return spheres;
 }
 

@@ -1,6 +1,7 @@
 // Spheres that fill the volume (paper 001, §4.2): large first, 90% of the distance to the surface, pruned by overlap and size.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/distance/voxel_domain.hpp"
@@ -31,5 +32,13 @@ struct SpherePackingOptions {
  *  spacing are ties, and ties are broken by voxel index. Voxels of a bridge lie outside the surface: give them the distance 0. */
 std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
                                  const SpherePackingOptions& options);
+
+/** The same where a voxel may be a center if it is a candidate (or its part's first), whatever `medial_slope` says. */
+std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector<double>& surface_distance,
+                                    const SpherePackingOptions& options, const std::vector<std::uint8_t>& candidates);
+
+/** Spheres for a domain without depth, as of an open sheet's voxels: equal ones at voxels spread farthest-first, so small that no
+ * two touch. */
+std::vector<Sphere> spread_spheres(const VoxelDomain& domain, int count);
 
 }  // namespace handlebody

@@ -4,6 +4,7 @@
 // After SparseCore, on which it stands.
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace handlebody {
@@ -89,11 +90,27 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
 }
 
 bool SparseCholesky::factor(const SparseMatrix& a) {
+  row_ = 0;
+  return factor_part(a, std::numeric_limits<double>::infinity()) > 0;
+}
+
+double SparseCholesky::factor_part(const SparseMatrix& a, double multiplications) {
   const auto n = static_cast<std::uint32_t>(order_.size());
-  Numbers filled(starts_.begin(), starts_.end() - 1), seen(n, none), path(n);
-  std::fill(work_.begin(), work_.begin() + n, 0.0);
+  if (row_ == 0) {
+    filled_.assign(starts_.begin(), starts_.end() - 1);
+    seen_.assign(n, none);
+    path_.resize(n);
+    done_ = 0;
+    std::fill(work_.begin(), work_.begin() + n, 0.0);
+  }
+  Numbers &filled = filled_, &seen = seen_, &path = path_;
   double *const y = work_.data(), *const inverse = y + n;
-  for (std::uint32_t k = 0; k < n; ++k) {
+  const double enough = done_ + multiplications;
+  for (std::uint32_t k = row_; k < n; ++k) {
+    if (done_ >= enough) {
+      row_ = k;
+      return std::min(2 * done_ / factor_cost_, 0.999);
+    }
     // The places of row k, each before those that it changes: paths of the tree, the last found first.
     std::uint32_t top = n;
     double diagonal = 0;
@@ -144,12 +161,17 @@ bool SparseCholesky::factor(const SparseMatrix& a) {
       else
         subtract<1>(y, below, count, columns, values);
       top += static_cast<std::uint32_t>(width);
+      done_ += static_cast<double>(width) * (count + 1.0);
     }
-    if (!(pivot > 1e-15 * diagonal)) return false;
+    if (!(pivot > 1e-15 * diagonal)) {
+      row_ = 0;
+      return -1;
+    }
     pivots_[k] = pivot;
     inverse[k] = 1 / pivot;
   }
-  return true;
+  row_ = 0;
+  return 1;
 }
 
 template <int width>

@@ -28,6 +28,10 @@ class SparseCholesky {
    * precision. */
   bool factor(const SparseMatrix& a);
 
+  /** The same in parts of about `multiplications` each: returns the part done, 1 when the factor is ready, or a negative number
+   * where `a` is not positive definite. Solve nothing in between. The call after that starts anew. */
+  double factor_part(const SparseMatrix& a, double multiplications);
+
   /** x ← A⁻¹ x, rows() × `width`, row-major: columns are solved together. Not after factor() returned false. */
   void solve(double* x, Index width = 1);
 
@@ -51,6 +55,11 @@ class SparseCholesky {
   std::vector<unsigned char> merges_;  // column k has the pattern of the one before, but for k
   std::vector<double> work_;
   double factor_cost_ = 0;
+
+  // A factorization under way: the next row, the entries of each column so far, marks and a stack, multiplications done.
+  std::uint32_t row_ = 0;
+  Numbers filled_, seen_, path_;
+  double done_ = 0;
 };
 
 }  // namespace handlebody

@@ -25,6 +25,9 @@ typedef enum hb_status {
   HB_ERROR_MESH_NO_INTERIOR = 25, /* no voxel lies inside: an open sheet, or a grid too coarse */
   HB_ERROR_MESH_TOO_LARGE = 26,
   HB_ERROR_MESH_DEGENERATE = 27, /* a triangle without area, a tetrahedron without volume */
+  HB_ERROR_MESH_OPEN = 28,       /* an edge without a triangle on its other side, where a method needs a closed surface */
+  HB_ERROR_MESH_NOT_CONNECTED = 29, /* several parts where a method needs one */
+  HB_ERROR_CLOUD_TOO_SPARSE = 30, /* a point cloud whose gaps are wider than the grid can close */
 
   /* baked bodies */
   HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
@@ -78,6 +81,16 @@ typedef enum hb_status {
   HB_ERROR_PICTURE_OPAQUE = 125,   /* no transparency that would give an outline */
   HB_ERROR_PICTURE_EMPTY = 126     /* nothing but transparency */
 } hb_status;
+
+/* What a bake may say besides its body: it worked, but perhaps not as meant. Names and numbers are as stable as those of errors. */
+typedef enum hb_warning_code {
+  HB_WARNING_SURFACE_OPEN = 1,      /* nothing lies inside: Euclidean distances over the surface's own voxels */
+  HB_WARNING_MESH_INSIDE_OUT = 2,   /* the surface encloses a negative volume: triangles face inward */
+  HB_WARNING_LIMBS_MERGED = 3,      /* the grid is too coarse to separate parts: distances leap across a gap */
+  HB_WARNING_PART_OUTSIDE = 4,      /* vertices far from all voxels inside: parts without volume, or thinner than a voxel */
+  HB_WARNING_ORIENTATION_MIXED = 5, /* neighboring triangles face opposite ways */
+  HB_WARNING_SURFACE_FILLED = 6     /* triangles do not tell inside from outside: what they enclose as a shell of voxels was taken */
+} hb_warning_code;
 
 /* What an error's index points at. */
 typedef enum hb_culprit {

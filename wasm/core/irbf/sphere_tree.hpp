@@ -1,0 +1,18 @@
+// Spheres from an octree (paper 001, §4.2's alternative, after Bradshaw & O'Sullivan 2004).
+#pragma once
+
+#include "core/irbf/sphere_packing.hpp"
+
+namespace handlebody {
+
+/** Every occupied cell of an octree over the domain proposes the largest sphere inscribed at one of its voxels, at the deepest
+ * level whose pruned spheres are no more than max_spheres; then they are pruned as pack_spheres does, larger first. So where that
+ * follows bones, this spreads over the volume: broad parts get many spheres of like size.
+ *
+ *  This is much simpler than Bradshaw and O'Sullivan's: they approximate the medial axis by a Voronoi diagram that is refined as it
+ *  goes, and make a hierarchy of spheres that cover the object, for collisions; IRBF wants one level, inside and apart, and has
+ *  distances on a grid. `medial_slope` is not used. */
+std::vector<Sphere> sphere_tree(const VoxelDomain& domain, const std::vector<double>& surface_distance,
+                                const SpherePackingOptions& options);
+
+}  // namespace handlebody

@@ -1,0 +1,37 @@
+// Lengths of shortest paths along a triangle mesh, approximately: Dijkstra's method whose wave also crosses triangles (Novotni &
+// Klein 2002). Any triangles will do, without area or obtuse ones too.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/numerics/sort.hpp"
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+/** Reusable state for many sources on one mesh; it keeps what it needs. Indices must be in range. */
+class SurfaceGeodesics {
+ public:
+  SurfaceGeodesics(const ConstPoints& positions, const ConstTriangles& triangles);
+
+  /** Distances along the surface from vertex `source` to every vertex, into `distances` (one a vertex); +infinity to other parts of
+   *  the mesh. On smooth surfaces about 0.5% off in the mean. Allocates nothing after the first call. */
+  void measure(std::uint32_t source, double* distances);
+
+ private:
+  struct Trial {
+    double distance;
+    std::uint32_t vertex;
+  };
+
+  void offer(std::uint32_t vertex, double distance, double* distances);
+  void cross(std::uint32_t a, std::uint32_t b, std::uint32_t to, double* distances);
+
+  Points positions_;
+  Triangles triangles_;
+  Numbers starts_, around_;  // the triangles around each vertex
+  std::vector<Trial> heap_;
+};
+
+}  // namespace handlebody

@@ -1,0 +1,189 @@
+/** From everything that can be baked to what the solver bakes: a mesh to show and deform, and what is known of its inside. */
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+import type { BakeShape, Mesh, TetrahedralMesh, VoxelVolume } from './types.ts';
+
+export interface PreparedShape {
+  readonly mesh: Mesh;
+  readonly cloud: boolean;
+  /** The inside, where the shape is a volume. */
+  readonly voxels: Uint32Array | undefined;
+}
+
+const MOST_VOXELS = 64e6;
+
+/** Checks a shape's arrays and makes its mesh. Throws 'invalid-shape', 'mesh-too-large', 'mesh-index-out-of-range' … */
+export function prepareShape(heap: Heap, shape: BakeShape): PreparedShape {
+  if ('dimensions' in shape) return prepareVolume(shape);
+  checkSize(heap, shape);
+  if ('tetrahedra' in shape) {
+    checkMeshArrays({ positions: shape.positions, triangles: new Uint32Array() });
+    const triangles = boundaryTriangles(shape);
+    return { mesh: { positions: shape.positions, triangles }, cloud: false, voxels: undefined };
+  }
+  const cloud = !('triangles' in shape);
+  const mesh = cloud ? { positions: shape.positions, triangles: new Uint32Array() } : shape;
+  checkMeshArrays(mesh);
+  return { mesh, cloud, voxels: undefined };
+}
+
+/** Lengths that the solver cannot see for itself; the values are checked there. */
+export function checkMeshArrays(mesh: Mesh): void {
+  for (const [name, length] of [
+    ['positions', mesh.positions.length],
+    ['triangles', mesh.triangles.length],
+  ] as const) {
+    if (length % 3 === 0) continue;
+    throw new HandlebodyError('invalid-shape', {
+      message: `The mesh's ${name} have ${length} numbers, which is not a multiple of 3.`,
+      remedy: name === 'positions' ? 'Give x, y and z for every vertex.' : 'Give three vertex indices for every triangle.',
+    });
+  }
+}
+
+/** By the counts alone: nothing has been copied yet. */
+function checkSize(heap: Heap, shape: Exclude<BakeShape, VoxelVolume>): void {
+  const indices = 'tetrahedra' in shape ? shape.tetrahedra.length / 4 : 'triangles' in shape ? shape.triangles.length / 3 : 0;
+  heap.check((e) => e.hb_mesh_check_size(shape.positions.length / 3, indices));
+}
+
+/**
+ * The faces of tetrahedra that no other one shares, counter-clockwise seen from outside. Every tetrahedron is taken as positively
+ * oriented; those without volume are left out. So the surface winds about a point as often as tetrahedra cover it, even where they
+ * overlap or do not meet face to face.
+ */
+export function boundaryTriangles({ positions, tetrahedra }: TetrahedralMesh): Uint32Array<ArrayBuffer> {
+  const [vertices, count] = [positions.length / 3, tetrahedra.length / 4];
+  if (!Number.isInteger(count) || count === 0) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `${tetrahedra.length} indices are no list of tetrahedra.`,
+      remedy: 'Give four vertex indices for every tetrahedron, and at least one.',
+    });
+  }
+  const faces = new Uint32Array(12 * count);
+  let used = 0;
+  for (let t = 0; t < count; t++) {
+    const [a = 0, b = 0, c = 0, d = 0] = tetrahedra.subarray(4 * t, 4 * t + 4);
+    const highest = Math.max(a, b, c, d);
+    if (highest >= vertices) {
+      throw new HandlebodyError('mesh-index-out-of-range', {
+        message: `Tetrahedron ${t} uses vertex ${highest}, but there are only ${vertices}.`,
+        remedy: 'Export the model again; its index list does not fit its vertices.',
+        culprit: { kind: 'tetrahedron', index: t },
+      });
+    }
+    const volume = sixVolumes(positions, a, b, c, d);
+    if (volume > 0) faces.set([a, c, b, a, b, d, a, d, c, b, c, d], used);
+    else if (volume < 0) faces.set([a, b, c, a, d, b, a, c, d, b, d, c], used);
+    else continue;
+    used += 12;
+  }
+  return withoutPairs(faces.subarray(0, used));
+}
+
+function sixVolumes(p: ArrayLike<number>, a: number, b: number, c: number, d: number): number {
+  const at = (v: number, axis: number) => (p[3 * v + axis] ?? 0) - (p[3 * a + axis] ?? 0);
+  const minor = (i: number, j: number) => at(c, i) * at(d, j) - at(c, j) * at(d, i);
+  return at(b, 0) * minor(1, 2) + at(b, 1) * minor(2, 0) + at(b, 2) * minor(0, 1);
+}
+
+/** Drops pairs of one triangle run through both ways: a hash table with open addressing, of triangles that still wait for theirs. */
+function withoutPairs(faces: Uint32Array): Uint32Array<ArrayBuffer> {
+  const count = faces.length / 3;
+  const size = 2 ** Math.ceil(Math.log2(2 * count + 2));
+  const table = new Int32Array(size); // face + 1; −1 where one was taken out
+  const dropped = new Uint8Array(count);
+  const sorted = (f: number) => faces.slice(3 * f, 3 * f + 3).sort();
+  const isEven = (f: number, [low = 0, middle = 0]: Uint32Array) => {
+    const at = faces.subarray(3 * f, 3 * f + 3).indexOf(low);
+    return faces[3 * f + ((at + 1) % 3)] === middle;
+  };
+  for (let f = 0; f < count; f++) {
+    const key = sorted(f);
+    const [a = 0, b = 0, c = 0] = key;
+    let slot = (Math.imul(a, 0x9e3779b1) ^ Math.imul(b, 0x85ebca6b) ^ Math.imul(c, 0xc2b2ae35)) >>> 0;
+    for (slot ^= slot >>> 15; ; slot++) {
+      slot &= size - 1;
+      const entry = table[slot] ?? 0;
+      if (entry === 0) {
+        table[slot] = f + 1;
+        break;
+      }
+      const other = sorted(entry - 1);
+      if (entry > 0 && key.every((v, i) => v === other[i]) && isEven(f, key) !== isEven(entry - 1, key)) {
+        dropped[f] = dropped[entry - 1] = 1;
+        table[slot] = -1;
+        break;
+      }
+    }
+  }
+  return Uint32Array.from(faces.filter((_, i) => dropped[Math.floor(i / 3)] === 0));
+}
+
+/** A volume's surface: two triangles for each face between inside and outside. */
+function prepareVolume(volume: VoxelVolume): PreparedShape {
+  const { dimensions, spacing, origin, inside } = volume;
+  const [nx, ny, nz] = dimensions;
+  const fits = dimensions.length === 3 && dimensions.every((n) => Number.isInteger(n) && n > 0);
+  if (!fits || nx * ny * nz > MOST_VOXELS || inside.length !== nx * ny * nz) {
+    throw new HandlebodyError(fits && nx * ny * nz > MOST_VOXELS ? 'mesh-too-large' : 'invalid-shape', {
+      message: `The volume has ${inside.length} voxels for the dimensions ${dimensions.join(' × ')}.`,
+      remedy: 'Give one byte for each of nx × ny × nz voxels, 64 million at most.',
+    });
+  }
+  if (!(spacing > 0 && Number.isFinite(spacing)) || !(origin.length === 3 && origin.every(Number.isFinite))) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `A volume cannot have the spacing ${spacing} and the origin ${origin.join(', ')}.`,
+      remedy: "Give the edge of a cube, and the center of the first voxel, in the model's units.",
+    });
+  }
+  const voxels = Uint32Array.from(insideVoxels(inside));
+  if (voxels.length === 0) {
+    throw new HandlebodyError('mesh-no-interior', {
+      message: 'The volume has no voxel that is inside.',
+      remedy: 'Mark the voxels inside with 1.',
+    });
+  }
+  return { mesh: volumeSurface(volume, voxels), cloud: false, voxels };
+}
+
+function* insideVoxels(inside: Uint8Array): Generator<number> {
+  for (let c = 0; c < inside.length; c++) if (inside[c] !== 0) yield c;
+}
+
+/** Of each side of a voxel (−x +x −y +y −z +z) the four corners, counter-clockwise seen from outside. */
+const SIDES = [
+  [-1, 0, 0, [0, 4, 6, 2]],
+  [1, 0, 0, [1, 3, 7, 5]],
+  [0, -1, 0, [0, 1, 5, 4]],
+  [0, 1, 0, [2, 6, 7, 3]],
+  [0, 0, -1, [0, 2, 3, 1]],
+  [0, 0, 1, [4, 5, 7, 6]],
+] as const;
+
+function volumeSurface({ dimensions: [nx, ny, nz], spacing, origin, inside }: VoxelVolume, voxels: Uint32Array): Mesh {
+  const numbers = new Map<number, number>();
+  const positions: number[] = [];
+  const triangles: number[] = [];
+  const vertex = (i: number, j: number, k: number): number => {
+    const key = i + (nx + 1) * (j + (ny + 1) * k);
+    const known = numbers.get(key);
+    if (known !== undefined) return known;
+    numbers.set(key, numbers.size);
+    positions.push(origin[0] + spacing * (i - 0.5), origin[1] + spacing * (j - 0.5), origin[2] + spacing * (k - 0.5));
+    return numbers.size - 1;
+  };
+  const isInside = (i: number, j: number, k: number) =>
+    i >= 0 && j >= 0 && k >= 0 && i < nx && j < ny && k < nz && inside[i + nx * (j + ny * k)] !== 0;
+  for (const voxel of voxels) {
+    const [i, j, k] = [voxel % nx, Math.floor(voxel / nx) % ny, Math.floor(voxel / (nx * ny))];
+    for (const [di, dj, dk, corners] of SIDES) {
+      if (isInside(i + di, j + dj, k + dk)) continue;
+      const [a = 0, b = 0, c = 0, d = 0] = corners.map((corner) =>
+        vertex(i + (corner & 1), j + ((corner >> 1) & 1), k + (corner >> 2)),
+      );
+      triangles.push(a, b, c, a, c, d);
+    }
+  }
+  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
+}

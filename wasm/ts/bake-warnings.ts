@@ -1,0 +1,70 @@
+/** What the solver's warnings mean, in words. */
+import { LAYOUT, WARNING_CODES, type WarningCode } from './abi.generated.ts';
+import type { Heap } from './heap.ts';
+import type { BakeWarning, Vec3 } from './types.ts';
+
+interface Facts {
+  readonly count: number;
+  readonly value: number;
+  readonly at: string;
+}
+
+const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string, remedy: string]> = {
+  'surface-open': () => [
+    'The surface encloses nothing at this resolution: Euclidean distances are taken, through the voxels of the surface itself.',
+    'Close the surface, or raise the resolution if the model is thin, for distances inside it.',
+  ],
+  'mesh-inside-out': () => [
+    'The triangles face inward. The inside is what the surface winds about, so baking works; normals point inward.',
+    'Turn the faces round in a modeling program.',
+  ],
+  'limbs-merged': ({ count, value, at }) => [
+    `Parts that are close together run into one: ${count} pairs of neighboring voxels have a gap between them, most at ${at}.`,
+    value > 0
+      ? `Bake with a resolution of ${value}, or move the parts apart.`
+      : 'Move the parts apart, where no resolution up to 512 separates them, or accept that they move together.',
+  ],
+  'part-outside': ({ count, value, at }) => [
+    `${count} vertices lie outside all voxels, the farthest ${value.toPrecision(3)} away at ${at}: they follow the nearest inside.`,
+    'Give such parts a thickness, raise the resolution if they have one, or leave them.',
+  ],
+  'orientation-mixed': ({ count }) => [
+    `${count} triangles face the other way than their neighbors; they were taken as turned round.`,
+    'Make the faces agree in a modeling program, if the inside is not what it should be.',
+  ],
+  'surface-filled': () => [
+    'The triangles do not tell inside from outside; what they enclose as a shell of voxels was taken.',
+    'Close the gaps and make the faces agree, for an inside that is exact.',
+  ],
+};
+
+/** Tells the warnings from number `told` on; returns how many there are. */
+export function tellWarnings(heap: Heap, bake: number, told: number, tell: (warning: BakeWarning) => void): number {
+  const layout = LAYOUT.hb_bake_warning;
+  const warnings = heap.scope((scratch) => {
+    const out = scratch.reserve(layout.sizeof);
+    const read: BakeWarning[] = [];
+    for (let i = told; i < heap.call((e) => e.hb_bake_get_warning(bake, i, out)); i++) read.push(readWarning(heap, out));
+    return read;
+  });
+  for (const warning of warnings) tell(warning);
+  return told + warnings.length;
+}
+
+function readWarning(heap: Heap, from: number): BakeWarning {
+  const layout = LAYOUT.hb_bake_warning;
+  const [number = 0, vertex = 0, count = 0, placed = 0] = heap.u32(from, 4);
+  const code = WARNING_CODES[number as keyof typeof WARNING_CODES];
+  const value = heap.f64(from + layout.value, 1)[0] ?? 0;
+  const [x = 0, y = 0, z = 0] = heap.f64(from + layout.place, 3);
+  const at: Vec3 | undefined = placed ? [x, y, z] : undefined;
+  const where = `(${[x, y, z].map((n) => Number(n.toPrecision(3))).join(', ')})`;
+  const [message, remedy] = SENTENCES[code]({ count, value, at: where });
+  return {
+    code,
+    message,
+    remedy,
+    ...(vertex !== 0xffff_ffff && { culprit: { kind: 'vertex', index: vertex } }),
+    ...(at && { at }),
+  };
+}
