@@ -1,4 +1,4 @@
-import type { BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
+import type { BakeWarning, BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
 import type { View } from '../stage/view.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
 import { byId } from '../ui/dom.ts';
@@ -43,6 +43,8 @@ export class Studio {
   #shown = '';
   #work: AbortController | undefined;
   #ownFile: File | undefined;
+  /** Of the bake that made the present scene. */
+  readonly #warnings: PageError[] = [];
 
   constructor(parts: StudioParts) {
     this.#parts = parts;
@@ -97,6 +99,7 @@ export class Studio {
     const work = new AbortController();
     this.#work = work;
     this.#placing.end();
+    this.#warnings.length = 0;
     const { messages, progress } = this.#parts;
     try {
       const scene = await make(work.signal);
@@ -106,6 +109,8 @@ export class Studio {
       }
       messages.clear();
       this.#swap(scene, id);
+      const [warning] = this.#warnings;
+      if (warning) messages.show(warning);
       this.#switch?.show(id, label);
     } catch (error) {
       if (work.signal.aborted && this.#work !== work) return;
@@ -194,7 +199,15 @@ export class Studio {
     const { progress } = this.#parts;
     progress.begin('Finding the inside of your model…', () => this.#work?.abort());
     const { bakeInWorker } = await import('../worker/index.ts');
-    return bakeInWorker(mesh, { resolution: OWN_RESOLUTION, signal, onProgress: (part) => progress.set(part) });
+    const onWarning = ({ code, message, remedy }: BakeWarning) => this.#warnings.push(new PageError(code, message, remedy));
+    const options = { resolution: OWN_RESOLUTION, signal, onProgress: (part: number) => progress.set(part), onWarning };
+    try {
+      return await bakeInWorker(mesh, options);
+    } catch (error) {
+      // A sheet has no inside to measure in; distances through the air serve it, with a warning that says so.
+      if ((error as { code?: unknown }).code !== 'mesh-no-interior') throw error;
+      return bakeInWorker(mesh, { ...options, distance: 'euclidean' });
+    }
   }
 
   async #takeHandles(file: File): Promise<void> {
