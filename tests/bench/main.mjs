@@ -4,7 +4,7 @@ import { runMain } from '../../scripts/lib/run.mjs';
 
 const PARTS = {
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
-  irbf: async () => (await import('./irbf.mjs')).benchIrbf(),
+  irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),
   skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),
 };
 
