@@ -19,7 +19,7 @@ const baked = await hb.bake(
     positions: surface.flatMap((v) => [...grid.positions.subarray(3 * v, 3 * v + 3)]),
     triangles: grid.triangles.map((v) => numbers.get(v) ?? 0),
   }),
-  { centers: 100, resolution: 64, spheres: 9 },
+  { centers: 100, spheres: 9 },
 );
 const body = {
   ...baked,
