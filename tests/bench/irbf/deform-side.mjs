@@ -40,6 +40,16 @@ const times = inTurns(Number(turns), 3, {
   deformFloat: () => float.deform(floatOut),
   deformNormals: () => irbf.deform(fixedOut, normals),
 });
+// In a row, what fits stays in the cache. Between two frames of a page there is more than that.
+const other = reader(2 ** 25);
+const swept = inTurns(Number(turns), 1, {
+  sweep: () => other.read(),
+  sweptRead: () => matrix.read(),
+  sweepAgain: () => other.read(),
+  sweptDeform: () => irbf.deform(fixedOut),
+  sweepOnceMore: () => other.read(),
+  sweptDeformFloat: () => float.deform(floatOut),
+});
 
 /** Against the double result, at 10,000 vertices or more. @param {Pick<import('../../../wasm/ts/index.ts').Irbf, 'evaluate'>} solver @param {Float32Array} out */
 function largestError(solver, out) {
@@ -51,4 +61,4 @@ function largestError(solver, out) {
   return chosen.reduce((worst, at, i) => Math.max(worst, miss(at, i)), 0) / body.normalization.diagonal;
 }
 const errors = { fixedError: largestError(irbf, fixedOut), floatError: largestError(float, floatOut) };
-console.log(JSON.stringify({ prepare, factor, solve, ...times, ...errors }));
+console.log(JSON.stringify({ prepare, factor, solve, ...times, ...swept, ...errors }));

@@ -49,6 +49,12 @@ export function deformation(taken) {
           wasmFloatOverReading: ratio(wasm, 'deformFloat', wasm, 'read'),
           nativeOverReading: ratio(native, 'deform', native, 'read'),
           nativeFloatOverReading: ratio(native, 'deformFloat', native, 'read'),
+          cacheSwept: {
+            wasmOverReading: ratio(wasm, 'sweptDeform', wasm, 'sweptRead'),
+            wasmFloatOverReading: ratio(wasm, 'sweptDeformFloat', wasm, 'sweptRead'),
+            nativeOverReading: ratio(native, 'sweptDeform', native, 'sweptRead'),
+            nativeFloatOverReading: ratio(native, 'sweptDeformFloat', native, 'sweptRead'),
+          },
           wasmOverNative: {
             prepare: over('prepare'),
             factor: over('factor'),
