@@ -5,7 +5,7 @@ import { runMain } from '../../scripts/lib/run.mjs';
 const PARTS = {
   bake: async () => (await import('./bake/main.mjs')).benchBake(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
-  irbf: async () => (await import('./irbf.mjs')).benchIrbf(),
+  irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),
   skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),
 };
 

@@ -1,10 +1,10 @@
-import { at } from '../../scripts/lib/paths.mjs';
+import { at } from '../../../scripts/lib/paths.mjs';
 
 /** Time from navigation until the built studio shows its model, handles ready: a sentence, also when it could not be measured. */
 export async function firstFrame() {
   try {
     const { chromium } = await import('playwright-core');
-    const { CHROMIUM_ARGS, findChromium } = await import('../../scripts/chromium.mjs');
+    const { CHROMIUM_ARGS, findChromium } = await import('../../../scripts/chromium.mjs');
     const { preview } = await import('vite');
     const server = await preview({ configFile: at('vite.config.ts'), logLevel: 'warn', preview: { port: 0, host: '127.0.0.1' } });
     const browser = await chromium.launch({ executablePath: await findChromium(), args: CHROMIUM_ARGS });

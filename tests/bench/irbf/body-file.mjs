@@ -1,7 +1,7 @@
 /** The body file that the native side of the benchmark reads: see bench.cpp for the order. */
 
 /**
- * @param {import('../../wasm/ts/index.ts').BodyData} body
+ * @param {import('../../../wasm/ts/index.ts').BodyData} body
  * @param {readonly number[]} handles Vertex numbers.
  * @param {readonly [number, number, number]} shift Of the first handle's target, model units.
  * @returns {Uint8Array}
