@@ -1,5 +1,5 @@
 import { beforeAll, describe, expect, it } from 'vitest';
-import { type BodyData, type Handlebody, type Irbf, load } from '../../wasm/ts/index.ts';
+import { type BodyData, type Handlebody, type Irbf, type IrbfOptions, load } from '../../wasm/ts/index.ts';
 import { dogHandles, readDog } from './support/dog.ts';
 import { bounds, edgeStrains, enclosedVolume } from './support/shapes.ts';
 
@@ -27,8 +27,8 @@ function deformed(irbf: Irbf): Float32Array {
   return out;
 }
 
-function liftPaw(body: BodyData) {
-  const irbf = hb.irbf(body);
+function liftPaw(body: BodyData, options: IrbfOptions = {}) {
+  const irbf = hb.irbf(body, options);
   const { leftFront } = setHandles(irbf, body);
   const { low, high, diagonal } = bounds(body.mesh.positions);
   irbf.targets[0] = (irbf.targets[0] ?? 0) + 0.12 * diagonal;
@@ -62,12 +62,19 @@ describe('the dog, 400 centers', () => {
     hb.bake(served.mesh, { centers: 400, resolution: 96, spheres: 120, distance });
 
   it('lifts one paw and leaves the other leg alone', async () => {
-    const result = liftPaw(await bake('fast-marching'));
-    expect(result.legVertices).toBeGreaterThan(1000);
-    expect(result.landing).toBeLessThan(1e-3);
-    expect(result.otherLeg).toBeLessThan(0.015);
-    expect(Math.abs(result.volume - 1)).toBeLessThan(0.01);
-    expect(result.strain99).toBeLessThan(0.5);
+    const body = await bake('fast-marching');
+    // The paper's λ, and the one that is chosen, which is larger: straining legs less, it shifts the trunk a little more.
+    for (const [smoothness, share] of [
+      [1e-6, 0.015],
+      ['auto', 0.02],
+    ] as const) {
+      const result = liftPaw(body, { smoothness });
+      expect(result.legVertices).toBeGreaterThan(1000);
+      expect(result.landing).toBeLessThan(1e-3);
+      expect(result.otherLeg).toBeLessThan(share);
+      expect(Math.abs(result.volume - 1)).toBeLessThan(0.01);
+      expect(result.strain99).toBeLessThan(0.5);
+    }
   });
 
   it('drags the other leg along with Euclidean distances', async () => {
