@@ -29,7 +29,7 @@ function ensureScikitFmm() {
 /** The served dog's mesh as bench.cpp reads it. @param {string} file */
 async function writeDog(file) {
   const { readBody, readGlb } = await import(at('dist', 'web', 'assets', 'index.js'));
-  const { positions, triangles } = readBody(await readGlb(readFileSync(at('public', 'models', 'dog.glb')))).mesh;
+  const { positions, triangles } = (await readBody(await readGlb(readFileSync(at('public', 'models', 'dog.glb'))))).mesh;
   const parts = [
     Uint32Array.of(positions.length / 3, triangles.length / 3),
     Float64Array.from(positions),

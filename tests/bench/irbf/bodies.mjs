@@ -34,7 +34,7 @@ export async function makeBodies(folder) {
   const { hashPositions } = await import('../../../dist/wasm/ts/hash.js');
   const { readBody, readGlb } = await import('../../../dist/web/assets/index.js');
   const served = async (/** @type {string} */ name) => {
-    const body = readBody(await readGlb(readFileSync(at('public', 'models', name))));
+    const body = await readBody(await readGlb(readFileSync(at('public', 'models', name))));
     if (!body) throw new Error(`${name} carries no body.`);
     return body.mesh;
   };

@@ -8,7 +8,7 @@ import { SETUP } from './setup.mjs';
 const started = performance.now();
 await load();
 const loaded = performance.now() - started;
-const served = readBody(await readGlb(readFileSync(SETUP.model)));
+const served = await readBody(await readGlb(readFileSync(SETUP.model)));
 if (!served) throw new Error('The model carries no body.');
 const handles = SETUP.handles.map((vertex) => ({ vertex }));
 /** @type {Record<string, number>} */
