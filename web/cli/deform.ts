@@ -56,6 +56,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   irbf.deform(shape.positions, restNormals && shape.normals);
   clock.lap('deform');
   const quality = measure(irbf, solved, report);
+  clock.lap('measure');
   if (!quality.converged) {
     report.warn({
       code: 'not-converged',
