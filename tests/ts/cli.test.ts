@@ -192,6 +192,50 @@ describe('handlebody bake', () => {
     expect(at(normals, top)[1]).toBeGreaterThan(0.5);
   });
 
+  it('bakes a cloud of points, and deforms it', async () => {
+    const dense = boxMesh([1, 0.25, 0.25], [64, 16, 16]);
+    const points = { positions: dense.positions, triangles: new Uint32Array() };
+    writeFileSync(bench.at('cloud.ply'), plyOf(points));
+    const result = await bench.json('bake', 'cloud.ply', '-o', 'cloud.glb', ...QUICK);
+    expect(result).toMatchObject({ vertices: dense.positions.length / 3, triangles: 0 });
+    const { mesh } = readMesh(await read('cloud.glb'));
+    const [left, right] = [extreme(mesh, [-1, 0, 0]), extreme(mesh, [1, 0, 0])];
+    const up = at(mesh.positions, right).map((x, axis) => x + (axis === 1 ? 0.2 : 0));
+    const handles = [
+      { vertex: left, to: at(mesh.positions, left), rotation: [0, 0, 0, 1] },
+      { vertex: right, to: up },
+    ];
+    writeFileSync(bench.at('handles.json'), JSON.stringify({ handles }));
+    await bench.json('deform', 'cloud.glb', '--handles', 'handles.json', '-o', 'out.glb');
+    expect(distance(at(readMesh(await read('out.glb')).mesh.positions, right), up)).toBeLessThan(0.01);
+  });
+
+  it('bakes an open sheet by Euclidean distances with a warning, and refuses it for others with a remedy', async () => {
+    const side = 12;
+    const place = (i: number) => `v ${i % side} ${Math.floor(i / side)} ${Math.sin(i % side) / 4}`;
+    const face = (k: number) => {
+      const a = (k % (side - 1)) + Math.floor(k / (side - 1)) * side + 1;
+      return `f ${a} ${a + 1} ${a + side + 1} ${a + side}`;
+    };
+    const lines = [
+      ...Array.from({ length: side ** 2 }, (_, i) => place(i)),
+      ...Array.from({ length: (side - 1) ** 2 }, (_, k) => face(k)),
+    ];
+    writeFileSync(bench.at('sheet.obj'), lines.join('\n'));
+    const { warnings } = await bench.json('bake', 'sheet.obj', '-o', 'sheet.glb', ...QUICK, '--distance', 'euclidean');
+    expect(warnings).toMatchObject([{ code: 'surface-open', remedy: expect.stringContaining('Close') }]);
+    const { status, stderr } = await bench.run('bake', 'sheet.obj', '-o', 'no.glb', ...QUICK);
+    expect(status).toBe(4);
+    expect(stderr).toMatch(/Euclidean[\s\S]*\(mesh-no-interior\)/);
+    expect(existsSync(bench.at('no.glb'))).toBe(false);
+  });
+
+  it.each(['heat', 'mean-value'])('bakes by %s', async (method) => {
+    const result = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance', method, '--spheres', 'tree');
+    expect(result).toMatchObject({ distance: method, packing: 'tree' });
+    expect((await readBody(await read('a.glb')))?.distance).toBe(method);
+  });
+
   it('takes its options: method, spheres, and where they are wrong says so', async () => {
     const few = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance=euclidean', '--max-spheres', '30');
     expect(few).toMatchObject({ distance: 'euclidean' });

@@ -1,13 +1,12 @@
 import { load } from '../../wasm/ts/index.ts';
-import type { BakeOptions, BodyData, Mesh } from '../../wasm/ts/types.ts';
+import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
 import { attachBody, readMesh } from '../assets/index.ts';
 import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
-import type { Warning } from './report.ts';
 import type { Run } from './run.ts';
 
-const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const;
+const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
 const PACKINGS = ['skeleton', 'tree'] as const;
 
 export const BAKE_OPTIONS: Options = {
@@ -31,8 +30,8 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   const hb = await load({ signal });
   // Without triangles it is a cloud of points.
   const shape = mesh.triangles.length > 0 ? mesh : { positions: mesh.positions };
-  const told = { signal, onProgress: report.progress('baking'), onWarning: (warning: Warning) => report.warn(warning) };
-  const body = await hb.bake(shape as Mesh, { ...options, ...told } as BakeOptions);
+  const onProgress = report.progress('baking');
+  const body = await hb.bake(shape, { ...options, signal, onProgress, onWarning: (warning) => report.warn(warning) });
   clock.lap('bake');
   await attachBody(document, body);
   const bytes = await modelBytes(document);

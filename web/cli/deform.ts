@@ -1,10 +1,12 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { load } from '../../wasm/ts/index.ts';
+import { type Irbf, load } from '../../wasm/ts/index.ts';
+import type { SolveReport } from '../../wasm/ts/types.ts';
 import { detachBody, HANDLEBODY_BODY, readBody, readMesh } from '../assets/index.ts';
 import { type Options, theFile, theOutput, usageError, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { parseHandles } from './handles.ts';
 import { modelBytes, naming, readModel } from './model.ts';
+import type { Report } from './report.ts';
 import type { Run } from './run.ts';
 import { sceneNormals, writeShape } from './write-shape.ts';
 
@@ -46,14 +48,15 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   });
   clock.lap('prepare');
   irbf.targets.set(targets);
-  irbf.solve({ maxIterations: MAX_ITERATIONS });
+  const solved = irbf.solve({ maxIterations: MAX_ITERATIONS });
   clock.lap('solve');
   const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3) };
   const restNormals = sceneNormals(ranges);
   if (restNormals) irbf.setRestNormals(restNormals);
   irbf.deform(shape.positions, restNormals && shape.normals);
   clock.lap('deform');
-  const quality = irbf.report();
+  const quality = measure(irbf, solved, report);
+  clock.lap('measure');
   if (!quality.converged) {
     report.warn({
       code: 'not-converged',
@@ -81,13 +84,29 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
     spheres: body.spheres.length / 4,
   };
   const percent = (part: number) => `${(part * 100).toFixed(2)}%`;
+  const measured = quality.volumeRatio !== null && `volume ${percent(quality.volumeRatio)}, ${quality.flips} flipped tetrahedra, `;
   report.result(
     { command: 'deform', input, output: output.name, bytes: bytes.length, ...counts, ...quality, timings: clock.laps() },
     [
       `${output.name}: ${counts.vertices} vertices, ${counts.handles} handles, ${quality.iterations} iterations, ` +
-        `volume ${percent(quality.volumeRatio)}, ${quality.flips} flipped tetrahedra, ${(clock.total() / 1000).toFixed(1)} s`,
+        `${measured || ''}${(clock.total() / 1000).toFixed(1)} s`,
     ],
   );
+}
+
+/** What the deformation is worth. Where measuring takes more memory than there is, the deformation is none the worse for it. */
+function measure(irbf: Irbf, solved: SolveReport, report: Report) {
+  try {
+    return irbf.report();
+  } catch (error) {
+    if (!(error instanceof HandlebodyError) || error.code !== 'out-of-memory') throw error;
+    report.warn({
+      code: 'not-measured',
+      message: `Volume and distortion were not measured. ${error.message}`,
+      remedy: error.remedy,
+    });
+    return { ...solved, volumeRatio: null, distortion: null, flips: null };
+  }
 }
 
 /** Handles and options come from the file of handles, and so does the fault when the solver refuses them. */

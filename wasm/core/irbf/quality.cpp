@@ -85,19 +85,25 @@ ColumnRanges ColumnRanges::of(const MatrixF& matrix) {
   return ranges;
 }
 
+namespace {
+
+Error too_large(Index voxels, double bytes) {
+  return {HB_ERROR_OUT_OF_MEMORY,
+          {"Measuring ", voxels, " voxels takes ", static_cast<int>(bytes / 1e6), " MB."},
+          {"Measure tetrahedra of your own, or bake at a lower resolution."}};
+}
+
+}  // namespace
+
 Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
   const VoxelDomain& domain = body.domain;
   const Grid& grid = domain.grid();
-  // A voxel has about one corner of its own, thin shapes up to eight.
-  const double bytes = static_cast<double>(domain.size()) * (8 * 4.0 * static_cast<double>(basis.size()) + 6 * 4 * 4);
-  if (bytes > most_bytes) {
-    return Error(HB_ERROR_OUT_OF_MEMORY,
-                 {"Measuring ", domain.size(), " voxels might take ", static_cast<int>(bytes / 1e6), " MB."},
-                 {"Measure tetrahedra of your own, or bake at a lower resolution."});
-  }
+  // Numbers of the grid's corners; of a voxel, six tetrahedra and at most eight corners of its own.
+  const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
+  const double fixed = 4.0 * static_cast<double>(across[0] * across[1] * across[2]) + 1300.0 * static_cast<double>(domain.size());
+  if (fixed > most_bytes) return too_large(domain.size(), fixed);
   std::unique_ptr<VoxelQuality> quality(new VoxelQuality());
   // Corners of the grid's cells, one more along each axis than there are voxels, numbered as they are met.
-  const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
   std::vector<std::int32_t> numbers(static_cast<std::size_t>(across[0] * across[1] * across[2]), -1);
   std::vector<std::uint8_t> uses;  // of each corner by voxels: eight for those inside
   InteriorSamples samples;
@@ -120,6 +126,9 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
       for (std::size_t k = 0; k < 4; ++k)
         quality->tetrahedra_(6 * v + static_cast<Index>(t), static_cast<Index>(k)) = corners[static_cast<std::size_t>(kuhn[t][k])];
   }
+  // Most voxels have one corner of their own and those of thin shapes up to eight: how much the basis takes is known only now.
+  const double bytes = fixed + 4.0 * static_cast<double>(samples.size()) * static_cast<double>(basis.size());
+  if (bytes > most_bytes) return too_large(domain.size(), bytes);
   quality->psi_ = MatrixF::Zero(samples.size(), basis.size());
   if (auto done = basis.evaluate<float>(samples, quality->psi_); !done) return done.error();
   quality->rest_.resize(samples.size(), 3);
