@@ -16,7 +16,7 @@ import { firstFrame } from './first-frame.mjs';
 import { print } from './print.mjs';
 import { deformation, frame, loading, quality, table1 } from './results.mjs';
 
-const ROUNDS = 3;
+const ROUNDS = 5;
 const PEERS = at('build', 'bench-peers', 'irbf');
 const PYTHON_PEERS = ['numpy==2.4.6', 'scipy==1.17.1', 'libigl==2.6.3'];
 

@@ -24,7 +24,7 @@ const overReading = (ratios) => [
  *   table1: Table,
  *   deformation: ReturnType<typeof import('./results.mjs').deformation>,
  *   frame: ReturnType<typeof import('./results.mjs').frame>,
- *   quality: Record<string, unknown>,
+ *   quality: ReturnType<typeof import('./results.mjs').quality>,
  *   loading: ReturnType<typeof import('./results.mjs').loading>,
  *   loadMilliseconds: number,
  *   firstFrame: string,
@@ -94,13 +94,25 @@ export function print(record) {
   };
   for (const [name, value] of Object.entries(facts)) row([name, value], 58);
 
+  const { libigl, ours, tetrahedra } = record.quality;
   console.log(
-    "\nThe bar bent by 90°, on one grid of tetrahedra. Bounds at relativeWidth 4: volume 0.98, total 4 × libigl's, largest 1/20 of it.\n",
+    `\nThe bar bent by 90°, ${tetrahedra} tetrahedra, beside libigl's ARAP of them. Bounds, of relativeWidth 4: volume 0.98, total 4, 1 / largest 20.\n`,
   );
-  for (const [name, value] of Object.entries(record.quality)) console.log(`${name.padEnd(34)}${JSON.stringify(value)}`);
+  row(['', 'volume', 'total/ARAP', 'ARAP/largest', 'flips', 'total', 'largest', 'off numpy'], 34);
+  for (const [name, q] of Object.entries(ours)) {
+    const [total = 0, largest = 99] = name.endsWith('4') ? [q.totalOverArap, q.arapLargestOverOurs] : [];
+    const ratios = [bounded(q.volume, q.volume >= 0.98 || !name.endsWith('4')), bounded(q.totalOverArap, total <= 4)];
+    row([name, ...ratios, bounded(q.arapLargestOverOurs, largest >= 20), q.flips, q.total, q.max, q.offNumpys], 34);
+  }
+  if (libigl) row(['libigl', libigl.volume, 1, 1, libigl.flips, libigl.total, libigl.max], 34);
 
-  console.log('\nMaking a deformation and holding it, beside baking (bound: 0.01, or 20 frames if that is more):\n');
-  for (const [name, value] of Object.entries(record.loading)) console.log(`${name.padEnd(34)}${JSON.stringify(value)}`);
+  console.log('\nMaking a deformation and holding it, over baking. Bound: 0.01, or 20 frames of 1/60 s if that is more.\n');
+  row(['', 'over baking', 'frames', 'ms', 'baking, ms', 'MB', 'baking, MB'], 34);
+  for (const [name, l] of Object.entries(record.loading)) {
+    const holds = (l.readyOverBake ?? 0) <= 0.01 || l.framesOfASixtieth <= 20;
+    const ratio = bounded(l.readyOverBake, holds);
+    row([name, ratio, l.framesOfASixtieth, l.readyMilliseconds, l.bakeMilliseconds, l.megabytes, l.megabytesToBake], 34);
+  }
   console.log(
     `\nload() in Node: ${record.loadMilliseconds} ms. Studio in headless Chromium (software rendering), from navigation: ${record.firstFrame}`,
   );

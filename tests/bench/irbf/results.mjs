@@ -95,29 +95,35 @@ export function frame(taken, arap) {
 export function quality(bar, arapBar) {
   const { reports } = /** @type {{ reports: Record<string, Measured & { tetrahedra: number }> }} */ (bar);
   const arap = /** @type {{ iterations: number, libigl: Measured, ours: Measured[] } | undefined} */ (arapBar);
-  const rows = Object.entries(reports).map(([name, { tetrahedra, ...report }], i) => {
+  const ours = Object.entries(reports).map(([name, report], i) => {
     const again = arap?.ours[i];
-    if (!arap || !again) return [name, report];
-    const off = (/** @type {'volume' | 'total' | 'max'} */ key) => Math.abs(report[key] / again[key] - 1);
-    const checked = Math.max(off('volume'), off('total'), off('max'), Math.abs(report.flips - again.flips));
+    const off = (/** @type {'volume' | 'total' | 'max'} */ key) => Math.abs(report[key] / (again?.[key] ?? Number.NaN) - 1);
     return [
       name,
       {
         volume: rounded(report.volume),
-        totalOverArap: rounded(report.total / arap.libigl.total),
-        arapLargestOverOurs: rounded(arap.libigl.max / report.max),
+        totalOverArap: arap && rounded(report.total / arap.libigl.total),
+        arapLargestOverOurs: arap && rounded(arap.libigl.max / report.max),
         flips: report.flips,
         total: rounded(report.total),
         max: rounded(report.max),
-        offNumpys: rounded(checked),
+        offNumpys: again && rounded(Math.max(off('volume'), off('total'), off('max'), Math.abs(report.flips - again.flips))),
       },
     ];
   });
+  const libigl = arap && {
+    volume: rounded(arap.libigl.volume),
+    total: rounded(arap.libigl.total),
+    max: rounded(arap.libigl.max),
+    flips: arap.libigl.flips,
+    iterations: arap.iterations,
+  };
   return {
     tetrahedra: Object.values(reports)[0]?.tetrahedra,
-    arapIterations: arap?.iterations,
-    libigl: arap?.libigl,
-    ...Object.fromEntries(rows),
+    libigl,
+    ours: /** @type {Record<string, Measured & { totalOverArap?: number, arapLargestOverOurs?: number, offNumpys?: number }>} */ (
+      Object.fromEntries(ours)
+    ),
   };
 }
 
