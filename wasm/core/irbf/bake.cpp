@@ -161,7 +161,7 @@ void Bake::orient() {
     if (orientation_.inside_out) warnings_.push_back({HB_WARNING_MESH_INSIDE_OUT, triangles_.rows()});
     if (orientation_.turned > 0) warnings_.push_back({HB_WARNING_ORIENTATION_MIXED, orientation_.turned});
   }
-  tree_.emplace(solver_positions_, triangles_);
+  tree_.emplace(solver_positions_, triangles_, !orientation_.closed);
   if (options_.grid) inside_ = std::move(options_.voxels);
   phase_ = options_.grid ? Phase::domain : options_.cloud ? Phase::fill : Phase::cross;
 }
@@ -186,6 +186,7 @@ void Bake::voxelize_slab() {
     sure_ = inside_.size();
     next_ = grid_.dims[2];
   } else {
+    if (orientation_.closed && next_ == 0) tree_.emplace(solver_positions_, triangles_);  // now with winding numbers
     for (int j = 0; j < grid_.dims[1]; ++j) {
       for (int i = 0; i < grid_.dims[0]; ++i) {
         const std::int64_t voxel = grid_.linear(i, j, static_cast<int>(next_));
@@ -283,7 +284,11 @@ void Bake::measure_depth() {
   const auto count = static_cast<std::size_t>(body_.domain.size());
   const std::size_t end = sheet_ ? count : std::min(count, depth_.size() + points_per_step);
   for (std::size_t v = depth_.size(); v < end; ++v) {
-    depth_.push_back(sheet_ || on_bridge_[v] ? 0 : tree_->distance(body_.domain.center(static_cast<Index>(v))));
+    // No more than a step farther than the voxel before it, where that is its neighbor.
+    const auto& voxels = body_.domain.voxels();
+    const bool beside = v > 0 && !on_bridge_[v - 1] && voxels[v] == voxels[v - 1] + 1;
+    const double bound = beside ? 1.0001 * (depth_[v - 1] + grid_.spacing) : std::numeric_limits<double>::infinity();
+    depth_.push_back(sheet_ || on_bridge_[v] ? 0 : tree_->distance(body_.domain.center(static_cast<Index>(v)), bound));
   }
   if (end == count) phase_ = Phase::spheres;
 }
@@ -361,18 +366,24 @@ void Bake::add_center() {
   // as the crow flies than to any before can come nearer to it.
   const auto interior = [&](std::uint32_t v) { return field_[v]; };
   waiting_.clear();
+  double farthest = -1;
+  const auto compare = [&](Index v) {
+    const double far = coverage_[v] * weight_[v];
+    if (far > farthest || (far == farthest && v < next_center_)) farthest = far, next_center_ = v;
+  };
   for (Index v = 0; v < samples_.size(); ++v) {
-    if ((samples_.point(v) - center).squaredNorm() < coverage_[v] * coverage_[v]) waiting_.push_back(v);
+    if ((samples_.point(v) - center).squaredNorm() < coverage_[v] * coverage_[v]) {
+      waiting_.push_back(v);
+    } else {
+      compare(v);
+    }
   }
   const bool many = 4 * waiting_.size() > coverage_.size();
   if (many) samples_.distance_ratios(center, interior, ratios_);
   for (const Index v : waiting_) {
     const double distance = many ? samples_.distance(ratios_, center, v) : samples_.distance_from(center, interior, v);
     coverage_[v] = std::min(coverage_[v], distance);
-  }
-  next_center_ = 0;
-  for (Index v = 1; v < samples_.size(); ++v) {
-    if (coverage_[v] * weight_[v] > coverage_[next_center_] * weight_[next_center_]) next_center_ = v;
+    compare(v);
   }
   if (static_cast<Index>(body_.centers.size()) < options_.centers) return;
   body_.distance_scale = *std::max_element(scales_.begin(), scales_.end());
