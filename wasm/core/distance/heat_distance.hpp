@@ -27,7 +27,7 @@ class HeatDistance {
 
   /** A bounded part of the factoring (some tens of milliseconds, a few hundred to order a million voxels). Returns the part done;
    *  at 1 all is ready, and further calls do nothing. Fails with OUT_OF_MEMORY where the two factors would take more than 1.5 GiB,
-   *  before the second is allocated. */
+   *  before any of it is allocated. */
   Result<double> step();
 
   /** Interior distances from `source` (anywhere in or near the domain) to every voxel center, into `distances` (domain.size()), in
