@@ -45,6 +45,11 @@ Result<Done> check_options(const BakeOptions& options, Index vertices) {
   return Done{};
 }
 
+std::uint16_t nearest_code(double code) {
+  const double above = code + 0.5;
+  return static_cast<std::uint16_t>(above);
+}
+
 /** The domain that was given, in solver space. */
 Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& voxels, const Normalization& normalization) {
   const double cells = double(model.dims[0]) * double(model.dims[1]) * double(model.dims[2]);
@@ -231,7 +236,7 @@ void Bake::add_center() {
   }
   scales_.push_back(longest / 65535);
   for (const double distance : field_) {
-    body_.distances.push_back(static_cast<std::uint16_t>(std::min(distance, longest) * (65535 / longest) + 0.5));
+    body_.distances.push_back(nearest_code(std::min(distance, longest) * (65535 / longest)));
   }
 
   // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices that lie nearer to the new one
@@ -269,7 +274,7 @@ void Bake::quantize() {
   for (Index done = 0; done < codes_per_step && next_ < options_.centers; done += row, ++next_) {
     const double factor = scales_[next_] / body_.distance_scale;
     std::uint16_t* codes = body_.distances.data() + next_ * row;
-    for (Index v = 0; v < row; ++v) codes[v] = static_cast<std::uint16_t>(codes[v] * factor + 0.5);
+    for (Index v = 0; v < row; ++v) codes[v] = nearest_code(codes[v] * factor);
   }
   if (next_ == options_.centers) phase_ = Phase::finished;
 }
