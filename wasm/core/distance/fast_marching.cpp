@@ -54,7 +54,7 @@ void FastMarching::march(const Vector3& source, double* distances) {
   std::fill(accepted_.begin(), accepted_.end(), infinity);
   axes_ = fresh_axes_;
   buckets_.fill(-1);
-  entries_.clear();
+  used_ = 0;
   initialize(source);
   for (int empty = 0; empty < ring; ++current_, ++empty) {
     std::int32_t& bucket = buckets_[current_ & (ring - 1)];
@@ -95,8 +95,9 @@ void FastMarching::initialize(const Vector3& source) {
 
 void FastMarching::push(std::int32_t voxel, std::int32_t bucket) {
   std::int32_t& list = buckets_[std::max(bucket, current_) & (ring - 1)];
-  entries_.push_back({voxel, list});
-  list = static_cast<std::int32_t>(entries_.size() - 1);
+  if (used_ == entries_.size()) entries_.resize(2 * used_ + 1024);
+  entries_[used_] = {voxel, list};
+  list = static_cast<std::int32_t>(used_++);
 }
 
 /** Neighbors of a voxel that has its final distance learn of it. Distances come in rising order, but for what a bucket holds, so

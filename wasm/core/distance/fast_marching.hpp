@@ -47,8 +47,9 @@ class FastMarching {
                                                  // accepted; one for voxels on the boundary
   std::vector<std::int32_t> ball_;               // the voxels that start exact
   std::array<std::int32_t, ring> buckets_;       // the first entry of each list, or -1
-  std::vector<Entry> entries_;                   // all that were ever pushed
-  std::int32_t current_ = 0;                     // the bucket that is being emptied
+  std::vector<Entry> entries_;                   // all that were ever pushed, and room
+  std::size_t used_ = 0;
+  std::int32_t current_ = 0;  // the bucket that is being emptied
 };
 
 }  // namespace handlebody
