@@ -234,6 +234,13 @@ TEST_CASE("a grid too coarse for the gap between two legs says where, and a reso
   CHECK(clam.find(HB_WARNING_LIMBS_MERGED)->value == 0);
 }
 
+TEST_CASE("a closed surface that crosses the grid's lines too often to keep them is voxelized by winding numbers") {
+  // Ten plates in one place, a voxel thick: 20 crossings of each of 262,144 lines along x.
+  const MadeMesh mesh = joined(std::vector<MadeMesh>(10, made_box({1. / 512, 1, 1}, {1, 1, 1})));
+  const Baked baked = bake(mesh.positions, mesh.triangles, small(512));
+  CHECK(baked.volume() == doctest::Approx(1. / 512));
+}
+
 TEST_CASE("a part without volume bakes, with a warning that says where; so do faces without area") {
   MadeMesh flag = sheet(4, 0);
   flag.positions.rowwise() += Eigen::RowVector3d(6, 2, 0);

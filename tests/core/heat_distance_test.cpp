@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -123,8 +124,8 @@ TEST_CASE("heat reaches the end of a corridor that is one voxel wide and 3000 lo
   }
 }
 
-TEST_CASE("heat refuses a domain whose factors would not fit, before it allocates the second") {
-  const Grid grid = *make_grid({0, 0, 0}, {1, 1, 1}, 72);
+TEST_CASE("heat refuses a domain whose factors would not fit, before it allocates them") {
+  const Grid grid = *make_grid({0, 0, 0}, {1, 1, 1}, 60);
   std::vector<std::uint32_t> voxels(static_cast<std::size_t>(grid.size()));
   for (std::size_t v = 0; v < voxels.size(); ++v) voxels[v] = static_cast<std::uint32_t>(v);
   const VoxelDomain domain(grid, std::move(voxels));
@@ -133,6 +134,7 @@ TEST_CASE("heat refuses a domain whose factors would not fit, before it allocate
   const auto done = heat.step();
   REQUIRE(!done);
   CHECK(done.error().code == HB_ERROR_OUT_OF_MEMORY);
+  CHECK(done.error().remedy.find("resolution") != std::string::npos);
 }
 
 TEST_CASE("heat is what SciPy makes of the same equations, and near scikit-fmm's fast marching") {

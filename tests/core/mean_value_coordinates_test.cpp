@@ -71,6 +71,26 @@ TEST_CASE("one-sided coordinates are the same on a convex mesh") {
   }
 }
 
+TEST_CASE("between surfaces that nearly touch plain coordinates cancel, one-sided ones do not (seed 13)") {
+  // Two shells, a slit of 1/1000 between them, and a hinge.
+  const MadeMesh clam = cell_surface({evenly(1, 10), evenly(.5, 5), {0, .1, .1995, .2005, .3, .4}},
+                                     [](int i, int, int k) { return k != 2 || i < 1; });
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double plain = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 p(.2 + .8 * uniform(random), .5 * uniform(random), .2005 + .1 * uniform(random));
+    plain = std::max(plain, mean_value_coordinates(clam.positions, clam.triangles, p, false).cwiseAbs().sum());
+    const Vector w = mean_value_coordinates(clam.positions, clam.triangles, p, true);
+    CHECK(w.minCoeff() >= 0);
+    double own = 0;  // the upper shell's
+    for (Index v = 0; v < w.size(); ++v) own += clam.positions(v, 2) > .2 || clam.positions(v, 0) < .15 ? w[v] : 0;
+    CHECK(own > .75);
+  }
+  MESSAGE("magnitudes of plain coordinates sum to " << plain);
+  CHECK(plain > 3);
+}
+
 TEST_CASE("on a corner, an edge and a triangle they are those of the triangle, and near them nearly so") {
   const MadeMesh mesh = l_surface();
   const Vector3 a = mesh.positions.row(mesh.triangles(7, 0)), b = mesh.positions.row(mesh.triangles(7, 1)),

@@ -74,8 +74,9 @@ export async function benchBake() {
     const results = {
       'a center: scikit-fmm / wasm': ratio('peer', 'center', 'wasm', 'center'),
       'a center: scikit-fmm / native': ratio('peer', 'center', 'native', 'center'),
-      'whole bake, in scikit-fmm runs, wasm': ratio('wasm', 'whole', 'peer', 'center'),
-      'whole bake, in scikit-fmm runs, native': ratio('native', 'whole', 'peer', 'center'),
+      'whole bake, in scikit-fmm runs, wasm': ratio('wasm', 'whole', 'peer', 'run'),
+      'the first of a page, in scikit-fmm runs, wasm': ratio('wasm', 'first', 'peer', 'run'),
+      'whole bake, in scikit-fmm runs, native': ratio('native', 'whole', 'peer', 'run'),
       'whole bake, wasm / native': ratio('wasm', 'whole', 'native', 'whole'),
       'memory of the wasm instance, MB': last('wasm', 'megabytes'),
       'voxels inside': last('wasm', 'voxels'),

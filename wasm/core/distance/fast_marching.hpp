@@ -23,32 +23,33 @@ class FastMarching {
 
  private:
   // A voxel before it is accepted: its trial distance, and of the equation that gave it Σ s²(t − base) and Σ s²(t − base)², where
-  // `base` is the first neighbor's distance. `axes` has a bit for each axis that has its term, and one for voxels on the boundary;
-  // `fourfold` is 4 Σ s².
+  // `base` is the first neighbor's distance; `fourfold` is 4 Σ s².
   struct Cell {
     float d, base, st, stt;
-    std::uint16_t axes, fourfold;
+    std::uint32_t fourfold;
   };
   struct Entry {
     std::int32_t voxel, next;
   };
-  static constexpr int ring = 64;  // buckets
+  static constexpr int ring = 64;  // buckets, a power of 2
 
   void initialize(const Vector3& source);
   void accept(std::int32_t voxel);
-  void join(Cell& cell, std::uint16_t axis, float a, float b) const;
-  float simplices(const std::int32_t* sides, const float* around, float dw, int axis) const;
+  bool join(Cell& cell, float a, float b) const;
+  float simplices(const std::int32_t* sides, float dw, int axis) const;
   void push(std::int32_t voxel, std::int32_t bucket);
 
   const VoxelDomain* domain_;
   std::vector<std::int32_t> neighbors_;  // VoxelDomain::face_neighbors()
-  std::vector<float> accepted_;         // final distances, +infinity elsewhere and at the row that stands for "no voxel"
-  std::vector<Cell> cells_, fresh_cells_;
-  std::vector<std::int32_t> ball_;  // the voxels that start exact
-  std::array<std::int32_t, ring> buckets_;  // the first entry of each list, or -1
-  std::vector<Entry> entries_;              // all that were ever pushed
-  std::int32_t current_ = 0;                // the bucket that is being emptied
-  std::size_t waiting_ = 0;                 // in all buckets
+  std::vector<float> accepted_;          // final distances, +infinity elsewhere and at the row that stands for "no voxel"
+  std::vector<Cell> cells_;
+  std::vector<std::uint8_t> axes_, fresh_axes_;  // of each voxel: a bit for each axis that has its term, or all and no other when
+                                                 // accepted; one for voxels on the boundary
+  std::vector<std::int32_t> ball_;               // the voxels that start exact
+  std::array<std::int32_t, ring> buckets_;       // the first entry of each list, or -1
+  std::vector<Entry> entries_;                   // all that were ever pushed, and room
+  std::size_t used_ = 0;
+  std::int32_t current_ = 0;  // the bucket that is being emptied
 };
 
 }  // namespace handlebody

@@ -67,7 +67,7 @@ Result<double> HeatDistance::step() {
 }
 
 /** L of the differences between face neighbors; I + t (L + the losses at the surface), and L with one voxel of each connected part
- *  held at 0. Both are M-matrices, so that factors and solutions keep every digit, however small the heat. */
+ *  held at 0. The first is an M-matrix and heat is positive, so that nothing cancels: however small, it keeps its digits. */
 void HeatDistance::assemble() {
   neighbors_ = domain_->face_neighbors();
   components_ = face_components(*domain_);
@@ -106,17 +106,15 @@ void HeatDistance::assemble() {
 
 Result<Done> HeatDistance::order_rows() {
   const Numbers order = minimum_degree_order(heat_matrix_);
-  auto heat = SparseCholesky::analyze(heat_matrix_, order);
-  if (!heat) return heat.error();
-  heat_ = std::move(*heat);
-  const double bytes = 2 * heat_->solve_cost() / 2 * (sizeof(double) + sizeof(std::uint32_t));
-  if (bytes > most_bytes) {
-    heat_.reset();
+  auto heat = SparseCholesky::analyze(heat_matrix_, order, most_bytes / 2);
+  if (!heat) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
-                 {"Geodesics in heat on ", domain_->size(), " voxels would take ", static_cast<int>(bytes / 1e6), " MB."},
+                 {"Geodesics in heat on ", domain_->size(), " voxels would take more than ", static_cast<int>(most_bytes / 1048576),
+                  " MiB."},
                  {"Use a coarser resolution, or fast marching."});
   }
-  auto poisson = SparseCholesky::analyze(poisson_matrix_, order);
+  heat_ = std::move(*heat);
+  auto poisson = SparseCholesky::analyze(poisson_matrix_, order, most_bytes / 2);  // the same pattern
   if (!poisson) return poisson.error();
   poisson_ = std::move(*poisson);
   const auto count = static_cast<std::size_t>(domain_->size());

@@ -1,6 +1,7 @@
 // Geodesics in heat on a voxel domain (Crane, Weischedel & Wardetzky 2013; paper 001, §4.1): heat flows from the source for a short
 // time, its normalized gradient points along the shortest paths, and a Poisson equation integrates it. Smooth where fast marching
-// has kinks, and quicker: two triangular solves a source.
+// has kinks. A source costs two triangular solves: on the dog at 96 voxels (12,000 inside) about as long as fast marching, at 192
+// (98,000) five times as long, because factors fill in.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ class HeatDistance {
 
   /** A bounded part of the factoring (some tens of milliseconds, a few hundred to order a million voxels). Returns the part done;
    *  at 1 all is ready, and further calls do nothing. Fails with OUT_OF_MEMORY where the two factors would take more than 1.5 GiB,
-   *  before the second is allocated. */
+   *  before any of it is allocated. */
   Result<double> step();
 
   /** Interior distances from `source` (anywhere in or near the domain) to every voxel center, into `distances` (domain.size()), in

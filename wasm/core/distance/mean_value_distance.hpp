@@ -33,8 +33,8 @@ class MeanValueDistance {
   static constexpr Index most_landmarks = 64, most_coordinates = 32;
 
   /** Checks the surface, in the domain's units (solver space), which must be closed and of one connected part: vertices at one
-   *  position count as one, triangles without three different corners are passed over, and either side may be out. The domain must
-   *  outlive the object.
+   *  position count as one, triangles without three different corners are passed over, and either side may be out. Positions must
+   *  be finite and indices in range. The domain must outlive the object.
    *  @errors MESH_OPEN (an edge without a triangle on its other side: the culprit), MESH_NOT_CONNECTED (a triangle of another part
    *          is the culprit), OUT_OF_MEMORY (refused before allocating) */
   static Result<MeanValueDistance> begin(const ConstPoints& positions, const ConstTriangles& triangles, const VoxelDomain& domain);

@@ -8,8 +8,8 @@
 namespace handlebody {
 namespace {
 
-constexpr std::size_t most_crossings = 8'000'000;
-constexpr double most_visits = 2e8;  // lines looked at: some seconds
+constexpr std::size_t most_crossings = 4'000'000;  // 160 MB
+constexpr double most_visits = 2e8;                // lines looked at: some seconds
 
 struct Place {
   double u, v;

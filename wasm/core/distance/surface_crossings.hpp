@@ -19,7 +19,7 @@ class SurfaceCrossings {
 
   SurfaceCrossings(const Grid& grid, int axis);
 
-  /** False when the surface crosses lines too often to keep (8 million times): give up then. `corners` are the triangle's vertex
+  /** False when the surface crosses lines too often to keep (4 million times): give up then. `corners` are the triangle's vertex
    *  numbers, welded: two triangles that share an edge decide alike on which side of it a line runs, so that a closed surface's
    *  signs add up to 0 on every line, whatever the rounding. */
   bool add(const Points& positions, const std::uint32_t* corners);

@@ -45,6 +45,8 @@ struct BakeWarning {
 
 class Bake {
  public:
+  static constexpr int highest_resolution = 512;
+
   /** Checks the input and the options; fails with MESH_* codes, INVALID_SHAPE or INVALID_OPTION.
    *
    *  What lies inside: the voxels whose centers a closed surface winds about, whichever way. Where triangles are not closed as they

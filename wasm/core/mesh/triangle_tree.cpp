@@ -62,7 +62,7 @@ void TriangleTree::Box::extend(const Vector3& point) {
   high = high.cwiseMax(point);
 }
 
-TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles) {
+TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles, bool winding) : winding_(winding) {
   const auto count = static_cast<std::uint32_t>(triangles.rows());
   triangles_.reserve(count);
   for (Index t = 0; t < triangles.rows(); ++t) {
@@ -106,7 +106,7 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t last) {
   const bool leaf = last - first <= leaf_size;
   nodes_.push_back({first, leaf ? last - first : 0, 0});
   boxes_.push_back(box);
-  expansions_.push_back(expand(first, last));
+  if (winding_) expansions_.push_back(expand(first, last));
 
   if (!leaf) {
     const std::uint32_t middle = first + (last - first) / 2;  // where arrange() split
@@ -209,14 +209,14 @@ double TriangleTree::Box::distance2(const Vector3& point) const {
   return (low - point).cwiseMax(point - high).cwiseMax(0).squaredNorm();
 }
 
-double TriangleTree::distance(const Vector3& point) const {
+double TriangleTree::distance(const Vector3& point, double bound) const {
   struct Visit {
     std::uint32_t node;
     double distance2;
   };
   std::array<Visit, 64> stack;  // the depth is at most 32
   int top = 0;
-  double best = std::numeric_limits<double>::infinity();
+  double best = bound * bound;
   if (!nodes_.empty()) stack[top++] = {0, boxes_[0].distance2(point)};
   while (top > 0) {
     const Visit visit = stack[--top];

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/numerics/types.hpp"
@@ -13,15 +14,16 @@ namespace handlebody {
 
 class TriangleTree {
  public:
-  /** Copies what it needs. Indices must be in range; zero-area triangles are allowed. */
-  TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles);
+  /** Copies what it needs. Indices must be in range; zero-area triangles are allowed. `winding`: whether it will be asked for
+   * winding numbers, whose expansions take more than half of the time. */
+  TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles, bool winding = true);
 
   /** Generalized winding number of `point`: about 1 inside a closed, outward-oriented surface, 0 outside, 1/2 on it; the sum over
    *  parts. Within 0.01 of the exact value. */
   double winding_number(const Vector3& point) const;
 
-  /** Distance from `point` to the nearest triangle; +infinity if there is none. */
-  double distance(const Vector3& point) const;
+  /** Distance from `point` to the nearest triangle, or `bound` if none is nearer. */
+  double distance(const Vector3& point, double bound = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Triangle {
@@ -61,7 +63,8 @@ class TriangleTree {
   std::vector<Triangle> triangles_;  // in the order of the leaves
   std::vector<Node> nodes_;
   std::vector<Box> boxes_;
-  std::vector<Expansion> expansions_;
+  std::vector<Expansion> expansions_;  // none without winding numbers
+  bool winding_;
 };
 
 }  // namespace handlebody

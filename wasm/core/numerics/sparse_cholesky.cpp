@@ -12,7 +12,7 @@ namespace handlebody {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
-constexpr double most_entries = 1.5 * 1024 * 1024 * 1024 / (sizeof(double) + sizeof(std::uint32_t));
+constexpr double entry_bytes = sizeof(double) + sizeof(std::uint32_t);
 constexpr int together = 8;     // columns solved at once
 constexpr int most_merged = 4;  // columns of L taken at once
 
@@ -42,7 +42,7 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
   return analyze(a, minimum_degree_order(a));
 }
 
-Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Numbers order) {
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Numbers order, double most_bytes) {
   std::unique_ptr<SparseCholesky> made(new SparseCholesky);
   SparseCholesky& result = *made;
   const auto n = static_cast<std::size_t>(a.rows());
@@ -72,11 +72,9 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
     entries += count;
     result.factor_cost_ += (count + 1.0) * (count + 1.0);
   }
-  if (entries > most_entries) {
-    return Error(
-        HB_ERROR_OUT_OF_MEMORY,
-        {"The factor of ", n, " equations would take ", entries * (sizeof(double) + sizeof(std::uint32_t)) / 1048576, " MiB."},
-        {"Use a coarser mesh."});
+  if (entries * entry_bytes > most_bytes) {
+    return Error(HB_ERROR_OUT_OF_MEMORY, {"The factor of ", n, " equations would take ", entries * entry_bytes / 1048576, " MiB."},
+                 {"Use a coarser mesh."});
   }
   result.starts_.assign(n + 1, 0);
   for (std::size_t k = 0; k < n; ++k) result.starts_[k + 1] = result.starts_[k] + counts[k];

@@ -21,8 +21,9 @@ class SparseCholesky {
    * OUT_OF_MEMORY where the factor would take more than 1.5 GiB, and says how much. */
   static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a);
 
-  /** The same in a given order: row order[0] is eliminated first. */
-  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Numbers order);
+  /** The same in a given order: row order[0] is eliminated first. And with a limit of one's own, for a caller of several factors.
+   */
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Numbers order, double most_bytes = 1.5 * (1 << 30));
 
   /** Factors a matrix with the pattern that was analyzed. False, and no factor, where it is not positive definite to working
    * precision. */
