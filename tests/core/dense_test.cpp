@@ -35,6 +35,12 @@ TEST_CASE("products are Eigen's to rounding (seed 51)") {
     Vector image(n + 2);
     multiply(a, y, image);
     CHECK((image - a * y).cwiseAbs().maxCoeff() < 1e-13);
+    MatrixXd symmetric = random_matrix(random, n, n);
+    const MatrixXd whole = symmetric.selfadjointView<Eigen::Lower>();
+    symmetric.triangularView<Eigen::StrictlyUpper>().setConstant(std::numeric_limits<double>::quiet_NaN());  // never read
+    Columns3 halved(n, 3);
+    multiply_symmetric(symmetric, x, halved);
+    CHECK((halved - whole * x).cwiseAbs().maxCoeff() < 1e-13);
     MatrixXd gram = MatrixXd::Identity(n, n);
     add_gram(a, gram);
     const MatrixXd expected = MatrixXd::Identity(n, n) + a.transpose() * a;
@@ -51,6 +57,9 @@ TEST_CASE("Cholesky solves from the right and refuses what is not positive defin
     REQUIRE(factor_cholesky(factor));
     solve_cholesky(factor, x);
     CHECK((x * a - b).cwiseAbs().maxCoeff() < 1e-11);
+    Vector one = b.row(2);
+    solve_cholesky(factor, one);
+    CHECK((a * one - b.row(2).transpose()).cwiseAbs().maxCoeff() < 1e-11);
     MatrixXd indefinite = a;
     indefinite(n - 1, n - 1) = -1;
     CHECK(!factor_cholesky(indefinite));

@@ -187,12 +187,15 @@ Result<SolveReport> Irbf::solve(const SolveOptions& options) {
     // Start from the last rotations, unless carrying the rest shape along rigidly is clearly better.
     std::vector<Matrix3>& rotations = iteration.rotations();
     std::fill(rotations.begin(), rotations.end(), Matrix3::Identity());
+    double energy = iteration.energy(rotations);
     if (solved_) {
-      const double rigid_energy = iteration.energy(rotations);
       for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
-      if (iteration.energy(work_.warm) < 2 * rigid_energy) rotations.swap(work_.warm);
+      const double warm_energy = iteration.energy(work_.warm);
+      const bool warm = warm_energy < 2 * energy;
+      if (warm) rotations.swap(work_.warm);
+      energy = warm ? warm_energy : iteration.energy(rotations);
     }
-    iteration.start();
+    iteration.start(energy);
     work_.solved_targets = targets_;
   }
   const LocalGlobalReport done = iteration.run({options.max_iterations, options.tolerance, options.accelerate});

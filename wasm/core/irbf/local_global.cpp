@@ -39,17 +39,17 @@ double LocalGlobal::energy(const std::vector<Matrix3>& rotations) {
     const Matrix3 turn = rotations[static_cast<std::size_t>(b)] - Matrix3::Identity();
     right_hand_side_.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
   }
-  multiply(*hat_, right_hand_side_, image_);
+  multiply_symmetric(*hat_, right_hand_side_, image_);
   double sum = 0;
   for (Index i = 0; i < image_.size(); ++i) sum += right_hand_side_.data()[i] * (right_hand_side_.data()[i] - image_.data()[i]);
   return sum;
 }
 
-void LocalGlobal::start() {
-  energy_ = energy(rotations_);
+void LocalGlobal::start(double energy) {
+  energy_ = energy;
   displaced_ = image_.topRows(edges_.rows());
   anderson_.forget();
-  accelerated_ = false;
+  accelerated_ = true;  // at rest or warm, the quasi-Newton step is the better first one, too
 }
 
 /** The local step: Procrustes, eq. (12), for every sphere. */
@@ -84,10 +84,17 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
   LocalGlobalReport report;
   while (report.iterations < options.max_iterations && !report.converged) {
     ++report.iterations;
-    if (!accelerated_) plain_step(trial_);
+    // The step is taken here and not at the end of the last iteration: a frame's only iteration has no next one.
+    const bool accelerated = options.accelerate && accelerated_;
+    if (accelerated) {
+      accelerated_step();
+    } else {
+      plain_step(trial_);
+    }
     const double energy = this->energy(trial_);
-    if (accelerated_ && !(energy <= energy_ * (1 + rounding))) {  // the step did harm: a plain one cannot
+    if (accelerated && !(energy <= energy_ * (1 + rounding))) {  // the step did harm: a plain one cannot
       accelerated_ = false;
+      this->energy(rotations_);  // their right-hand side and image again
       continue;
     }
     energy_ = energy;
@@ -96,10 +103,9 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     report.change = std::sqrt((moved.rowwise().squaredNorm().array() * edge_scale_.array().square()).maxCoeff());
     report.converged = report.change < options.tolerance;
     displaced_ = image_.topRows(edges_.rows());
-    accelerated_ = options.accelerate;
-    if (accelerated_) accelerated_step();
+    accelerated_ = true;
   }
-  report.energy = energy(rotations_);
+  report.energy = energy_;
   return report;
 }
 

@@ -44,8 +44,8 @@ class LocalGlobal {
   /** The least energy for given rotations and the present constraints. */
   double energy(const std::vector<Matrix3>& rotations);
 
-  /** Begins at `rotations()`, forgetting earlier steps. */
-  void start();
+  /** Begins at `rotations()`, whose energy was the last one asked for and came out as given; forgets earlier steps. */
+  void start(double energy);
 
   /** Goes on from where it stopped. Allocates nothing. Leaves the best rotations in rotations(), and their right-hand side. */
   LocalGlobalReport run(const LocalGlobalOptions& options);

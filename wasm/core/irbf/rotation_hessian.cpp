@@ -55,22 +55,7 @@ void RotationHessian::step(const Points& edges, const Columns3& residual, const 
       torque += Vector3(edges.row(i)).cross(Vector3(rotation.transpose() * residual.row(i).transpose()));
     gradient_.segment<3>(3 * b) = torque;
   }
-  // L Lᵀ x = g.
-  const Index n = factor_.rows();
-  double* x = gradient_.data();
-  for (Index j = 0; j < n; ++j) {
-    const double* column = factor_.data() + j * n;
-    const double pivot = x[j] /= column[j];
-    for (Index i = j + 1; i < n; ++i) x[i] -= pivot * column[i];
-  }
-  for (Index j = n; j-- > 0;) {
-    const double* column = factor_.data() + j * n;
-    double sum0 = 0, sum1 = 0;
-    Index i = j + 1;
-    for (; i + 2 <= n; i += 2) sum0 += column[i] * x[i], sum1 += column[i + 1] * x[i + 1];
-    if (i < n) sum0 += column[i] * x[i];
-    x[j] = (x[j] - (sum0 + sum1)) / column[j];
-  }
+  solve_cholesky(factor_, gradient_);
   for (std::size_t b = 0; b < rotations.size(); ++b)
     turned[b] = rotations[b] * exponential(-gradient_.segment<3>(3 * static_cast<Index>(b)));
 }

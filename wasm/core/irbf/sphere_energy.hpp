@@ -18,9 +18,9 @@ struct SphereEnergy {
 /** `exponent` is α. Fails as the basis does. */
 Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent);
 
-/** λ chosen from the data: a fixed part, 0.02, of the curvature that a coefficient has by itself in eq. (9), on average over the centers
- *  Σ w‖Δφ_c‖². So eq. (10) keeps its balance whatever the model's size, the number of spheres and of centers, their weights by α and
- *  the width of the kernel, all of which change that curvature: for widths from 1 to 6 spacings by a factor of a hundred.
+/** λ chosen from the data: a fixed part, 0.02, of the curvature that a coefficient has by itself in eq. (9), on average over the
+ * centers Σ w‖Δφ_c‖². So eq. (10) keeps its balance whatever the model's size, the number of spheres and of centers, their weights
+ * by α and the width of the kernel, all of which change that curvature: for widths from 1 to 6 spacings by a factor of a hundred.
  *
  *  The part was picked by sweeps of λ over nine decades on a bar bent by 90° (5 to 18 spheres, 100 and 300 centers, widths 1 to 4)
  *  and the dog with a paw lifted (200 and 400 centers, widths 1.5 to 6), by the total distortion of tetrahedra and, on the dog, by

@@ -22,6 +22,16 @@ void add_columns(double* __restrict y, Index rows, const double* __restrict colu
   }
 }
 
+/** Two numbers anywhere in memory: sums of products are not vectorized by themselves, since that changes their order. */
+using Pair = double __attribute__((vector_size(16)));
+using Unaligned = double __attribute__((vector_size(16), aligned(8), may_alias));
+inline Pair load(const double* from) {
+  return *reinterpret_cast<const Unaligned*>(from);
+}
+inline void store(Pair pair, double* to) {
+  *reinterpret_cast<Unaligned*>(to) = pair;
+}
+
 }  // namespace
 
 void multiply(const MatrixXd& a, const Columns3& x, Columns3& out) {
@@ -51,6 +61,64 @@ void multiply(const MatrixXd& a, const Columns3& x, Columns3& out) {
       oy[i] += x(k, 1) * c0[i];
       oz[i] += x(k, 2) * c0[i];
     }
+  }
+}
+
+void multiply_symmetric(const MatrixXd& lower, const Columns3& x, Columns3& out) {
+  out.setZero();
+  const Index n = lower.rows();
+  Index j = 0;
+  for (; j + 2 <= n; j += 2) {
+    const double *c0 = &lower(0, j), *c1 = c0 + n;
+    for (Index axis = 0; axis < 3; ++axis) {
+      // Three passes over two columns, which stay in the cache.
+      const double* from = x.data() + axis * n;
+      double* to = out.data() + axis * n;
+      const double x0 = from[j], x1 = from[j + 1];
+      const Pair both0{x0, x0}, both1{x1, x1};
+      Pair sum0{}, sum1{};
+      Index i = j + 2;
+      for (; i + 2 <= n; i += 2) {
+        const Pair a0 = load(c0 + i), a1 = load(c1 + i), numbers = load(from + i);
+        store(load(to + i) + (a0 * both0 + a1 * both1), to + i);
+        sum0 += a0 * numbers, sum1 += a1 * numbers;
+      }
+      double total0 = sum0[0] + sum0[1], total1 = sum1[0] + sum1[1];
+      if (i < n) {
+        to[i] += c0[i] * x0 + c1[i] * x1;
+        total0 += c0[i] * from[i], total1 += c1[i] * from[i];
+      }
+      to[j] += total0 + c0[j] * x0 + c0[j + 1] * x1;
+      to[j + 1] += total1 + c0[j + 1] * x0 + c1[j + 1] * x1;
+    }
+  }
+  for (; j < n; ++j) out.row(j) += lower(j, j) * x.row(j);
+}
+
+void solve_cholesky(const MatrixXd& factor, Vector& solution) {
+  // Two columns a pass: x is read, or written, half as often.
+  const Index n = factor.rows();
+  double* x = solution.data();
+  Index j = 0;
+  for (; j + 2 <= n; j += 2) {
+    const double *c0 = &factor(0, j), *c1 = c0 + n;
+    const double x0 = x[j] /= c0[j];
+    const double x1 = x[j + 1] = (x[j + 1] - x0 * c0[j + 1]) / c1[j + 1];
+    for (Index i = j + 2; i < n; ++i) x[i] -= x0 * c0[i] + x1 * c1[i];
+  }
+  if (j < n) x[j] /= factor(j, j) * factor(j, j);  // the last of an odd number: by L, and by Lᵀ
+  for (j -= 2; j >= 0; j -= 2) {
+    const double *c0 = &factor(0, j), *c1 = c0 + n;
+    Pair sum0{}, sum1{};
+    Index i = j + 2;
+    for (; i + 2 <= n; i += 2) {
+      const Pair numbers = load(x + i);
+      sum0 += load(c0 + i) * numbers, sum1 += load(c1 + i) * numbers;
+    }
+    double total0 = sum0[0] + sum0[1], total1 = sum1[0] + sum1[1];
+    if (i < n) total0 += c0[i] * x[i], total1 += c1[i] * x[i];
+    x[j + 1] = (x[j + 1] - total1) / c1[j + 1];
+    x[j] = (x[j] - total0 - c0[j + 1] * x[j + 1]) / c0[j];
   }
 }
 

@@ -16,6 +16,9 @@ using Columns3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 void multiply(const MatrixXd& a, const Columns3& x, Columns3& out);
 void multiply(const MatrixXd& a, const Vector& x, Eigen::Ref<Vector> out);
 
+/** The same for a symmetric matrix, of which only the lower triangle is read: half the memory, which is what takes the time. */
+void multiply_symmetric(const MatrixXd& lower, const Columns3& x, Columns3& out);
+
 MatrixXd product(const MatrixXd& a, const MatrixXd& b);
 
 /** a += bᵀ b, of which only the lower triangle is written. */
@@ -26,6 +29,9 @@ bool factor_cholesky(MatrixXd& a);
 
 /** b ← b (L Lᵀ)⁻¹: solves from the right. */
 void solve_cholesky(const MatrixXd& factor, MatrixXd& b);
+
+/** x ← (L Lᵀ)⁻¹ x for one vector. */
+void solve_cholesky(const MatrixXd& factor, Vector& x);
 
 /** P a = L U over a, with partial pivoting: row i was swapped with row `pivots[i]`, in that order. Singular matrices pass, and give
  *  numbers that are not finite later on. */
