@@ -19,17 +19,17 @@ const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string
     'Turn the faces round in a modeling program.',
   ],
   'limbs-merged': ({ count, value, at }) => [
-    `Parts that are close together run into one: ${count} pairs of neighboring voxels have a gap between them, most at ${at}.`,
+    `Parts that are close together run into one: ${count} ${count === 1 ? 'pair' : 'pairs'} of neighboring voxels with a gap between, most of them about ${at}.`,
     value > 0
       ? `Bake with a resolution of ${value}, or move the parts apart.`
       : 'Move the parts apart, where no resolution up to 512 separates them, or accept that they move together.',
   ],
   'part-outside': ({ count, value, at }) => [
-    `${count} vertices lie outside all voxels, the farthest ${value.toPrecision(3)} away at ${at}: they follow the nearest inside.`,
+    `Outside all voxels: ${count} ${count === 1 ? 'vertex' : 'vertices'}, the farthest ${value.toPrecision(3)} away at ${at}. They follow the nearest inside.`,
     'Give such parts a thickness, raise the resolution if they have one, or leave them.',
   ],
   'orientation-mixed': ({ count }) => [
-    `${count} triangles face the other way than their neighbors; they were taken as turned round.`,
+    `Triangles that face the other way than their neighbors: ${count}. They were taken as turned round.`,
     'Make the faces agree in a modeling program, if the inside is not what it should be.',
   ],
   'surface-filled': () => [
