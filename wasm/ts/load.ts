@@ -25,7 +25,7 @@ import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './t
 import type { BakeOptions, BakeShape, BodyData, IrbfOptions, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
-const ABI_VERSION = 1;
+const ABI_VERSION = 2;
 
 export interface LoadOptions {
   /** The wasm to use instead of the one inside: compiled, as bytes, or where to fetch it. */

@@ -24,10 +24,10 @@ typedef enum hb_status {
   HB_ERROR_MESH_ZERO_EXTENT = 24, /* all vertices coincide */
   HB_ERROR_MESH_NO_INTERIOR = 25, /* no voxel lies inside: an open sheet, or a grid too coarse */
   HB_ERROR_MESH_TOO_LARGE = 26,
-  HB_ERROR_MESH_DEGENERATE = 27, /* a triangle without area, a tetrahedron without volume */
-  HB_ERROR_MESH_OPEN = 28,       /* an edge without a triangle on its other side, where a method needs a closed surface */
+  HB_ERROR_MESH_DEGENERATE = 27,    /* a triangle without area, a tetrahedron without volume */
+  HB_ERROR_MESH_OPEN = 28,          /* an edge without a triangle on its other side, where a method needs a closed surface */
   HB_ERROR_MESH_NOT_CONNECTED = 29, /* several parts where a method needs one */
-  HB_ERROR_CLOUD_TOO_SPARSE = 30, /* a point cloud whose gaps are wider than the grid can close */
+  HB_ERROR_CLOUD_TOO_SPARSE = 30,   /* a point cloud whose gaps are wider than the grid can close */
 
   /* baked bodies */
   HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
@@ -89,7 +89,7 @@ typedef enum hb_warning_code {
   HB_WARNING_LIMBS_MERGED = 3,      /* the grid is too coarse to separate parts: distances leap across a gap */
   HB_WARNING_PART_OUTSIDE = 4,      /* vertices far from all voxels inside: parts without volume, or thinner than a voxel */
   HB_WARNING_ORIENTATION_MIXED = 5, /* neighboring triangles face opposite ways */
-  HB_WARNING_SURFACE_FILLED = 6     /* triangles do not tell inside from outside: what they enclose as a shell of voxels was taken */
+  HB_WARNING_SURFACE_FILLED = 6 /* triangles do not tell inside from outside: what they enclose as a shell of voxels was taken */
 } hb_warning_code;
 
 /* What an error's index points at. */
