@@ -96,3 +96,20 @@ it('takes sound handles from a file', async () => {
   await settled(page);
   expect(distance(await surface(page, 'Handle 1'), [0.45, 0.15, 0.06])).toBeLessThan(2e-3);
 });
+
+it('opens a sheet, which has no inside, with distances through the air, and says so', async () => {
+  const side = 12;
+  const place = (i: number, j: number) => [i / side, 0.1 * Math.sin((5 * i) / side), j / side];
+  const at = (i: number, j: number) => i + (side + 1) * j;
+  const rows = Array.from({ length: side + 1 }, (_, k) => k);
+  const cells = rows.slice(1).flatMap((j) => rows.slice(1).map((i) => [i, j] as const));
+  const sheet = {
+    positions: rows.flatMap((j) => rows.flatMap((i) => place(i, j))),
+    indices: cells.flatMap(([i, j]) => [at(i - 1, j - 1), at(i - 1, j), at(i, j), at(i - 1, j - 1), at(i, j), at(i, j - 1)]),
+  };
+  await openFile(page, 'sheet.glb', glb(sheet));
+  await soon(() => page.locator('#studio').getAttribute('data-model')).toBe('own');
+  await soon(() => page.getByRole('alert').locator('.code').textContent()).toContain('surface-open');
+  expect(await page.locator('.handle').count()).toBe(6);
+  expect(said).toEqual([]);
+});
