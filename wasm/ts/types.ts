@@ -65,8 +65,12 @@ export interface BodyData {
 }
 
 /**
- * Distances inside the body: by fast marching; by heat, smoother and quicker; by mean value coordinates, smoothest; or through the air,
- * for convex shapes and open sheets.
+ * Distances inside the body: by fast marching; by heat, smoother and quicker on coarse grids; by mean value coordinates, which measure along
+ * the surface and carry that inside; or through the air, for convex shapes and open sheets.
+ *
+ * What is not inside has an answer too. A point outside reads the nearest voxels inside, extrapolated over 1.5 of them at most, and so do
+ * parts without volume ('part-outside' tells which). Surfaces that touch, or come closer than a voxel, run into one for fast marching and
+ * heat ('limbs-merged' tells where), and stay apart for mean values unless they share vertices' places.
  */
 export type DistanceMethod = 'fast-marching' | 'heat' | 'mean-value' | 'euclidean';
 

@@ -17,18 +17,19 @@ void dilate(const Grid& grid, std::vector<std::uint8_t>& cells, int radius) {
     const int count = grid.dims[axis];
     for (std::int64_t c = 0; c < grid.size(); ++c) {
       if (c / stride % count != 0) continue;  // the first of a line
-      line.assign(count, 0);
+      const auto at = [&](int i) { return static_cast<std::size_t>(c + stride * i); };
+      line.assign(static_cast<std::size_t>(count), 0);
       int last = -radius - 1;
       for (int i = 0; i < count; ++i) {
-        if (cells[c + stride * i]) last = i;
+        if (cells[at(i)]) last = i;
         line[i] = i - last <= radius;
       }
       last = count + radius;
       for (int i = count - 1; i >= 0; --i) {
-        if (cells[c + stride * i]) last = i;
+        if (cells[at(i)]) last = i;
         if (last - i <= radius) line[i] = 1;
       }
-      for (int i = 0; i < count; ++i) cells[c + stride * i] = line[i];
+      for (int i = 0; i < count; ++i) cells[at(i)] = line[i];
     }
   }
 }
@@ -38,8 +39,9 @@ std::vector<std::uint8_t> flood(const Grid& grid, const std::vector<std::uint8_t
   std::vector<std::uint8_t> reached(blocked.size());
   std::vector<std::int64_t> queue;
   const auto visit = [&](std::int64_t c) {
-    if (blocked[c] || reached[c]) return;
-    reached[c] = 1;
+    const auto at = static_cast<std::size_t>(c);
+    if (blocked[at] || reached[at]) return;
+    reached[at] = 1;
     queue.push_back(c);
   };
   for (std::int64_t c = 0; c < grid.size(); ++c) {
@@ -70,7 +72,7 @@ std::vector<std::uint32_t> filled_shell(const Grid& given, const std::vector<std
   for (int& n : grid.dims) n += 2 * room;
   const auto place_of = [&](std::int64_t c) {
     const auto cell = given.cell(c);
-    return grid.linear(cell[0] + room, cell[1] + room, cell[2] + room);
+    return static_cast<std::size_t>(grid.linear(cell[0] + room, cell[1] + room, cell[2] + room));
   };
   std::vector<std::uint8_t> splat(static_cast<std::size_t>(grid.size()));
   for (const std::uint32_t voxel : voxels) splat[place_of(voxel)] = 1;
