@@ -1,7 +1,8 @@
 // What the benchmarks share: building the native side, running a side, and the middle of several rounds.
+import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { at } from '../../scripts/lib/paths.mjs';
-import { capture, mustRun } from '../../scripts/lib/run.mjs';
+import { capture, mustRun, which } from '../../scripts/lib/run.mjs';
 
 /** @typedef {Record<string, number>} Times milliseconds by name */
 
@@ -15,6 +16,20 @@ export async function buildNative(name, options, target = 'handlebody_bench') {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
   return path.join(folder, target);
+}
+
+/**
+ * Installs Python packages into a folder, by name and version, unless the module that they are wanted for is there.
+ * @param {string} folder @param {string} module @param {readonly string[]} packages
+ * @returns {string | undefined} why it could not be had
+ */
+export function ensurePython(folder, module, packages) {
+  if (existsSync(path.join(folder, module))) return undefined;
+  const python = which('python3');
+  if (!python) return 'there is no python3';
+  console.log(`Installing ${packages.join(', ')} (pip) …`);
+  const { status, stderr } = capture(python, ['-m', 'pip', 'install', '-q', '--target', folder, ...packages]);
+  return status === 0 ? undefined : `pip could not install ${packages.join(', ')}: ${stderr.trim().split('\n').at(-1)}`;
 }
 
 /** @param {string} program @param {string[]} args @param {NodeJS.ProcessEnv} [env] @returns {Times} */

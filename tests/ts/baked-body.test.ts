@@ -86,16 +86,10 @@ describe('the dog as served, 200 centers', async () => {
     expect(Buffer.from(await writeGlb(await readGlb(written))).equals(written)).toBe(true);
   });
 
-  it('is decompressed in less than the third of a second that twenty frames last', async () => {
-    const times: number[] = [];
-    for (let round = 0; round < 3; round++) {
-      const start = performance.now();
-      const header = { ...parseBodyHeader(served), arraysHash: stored.arraysHash };
-      const body = await decodeBody({ header, arrays: stored.arrays, mesh: () => served.mesh });
-      times.push(performance.now() - start);
-      expect(Buffer.compare(new Uint8Array(body.distances.buffer), new Uint8Array(served.distances.buffer))).toBe(0);
-    }
-    expect(Math.min(...times)).toBeLessThan(1000 / 3);
+  it('is decompressed to the codes that were baked', async () => {
+    const header = { ...parseBodyHeader(served), arraysHash: stored.arraysHash };
+    const body = await decodeBody({ header, arrays: stored.arrays, mesh: () => served.mesh });
+    expect(Buffer.compare(new Uint8Array(body.distances.buffer), new Uint8Array(served.distances.buffer))).toBe(0);
   });
 
   /** Deformed by all six handles. */

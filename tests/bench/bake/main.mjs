@@ -2,29 +2,19 @@
  * Baking beside scikit-fmm, which is installed into build/bench-peers by name and version, in turns in one run, as ratios: the dog's 400
  * centers at 96 voxels. Results go to results.json beside this file. Absolute times are those of a noisy machine: compare ratios only.
  */
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
 import path from 'node:path';
 import { at } from '../../../scripts/lib/paths.mjs';
-import { capture, mustRun, which } from '../../../scripts/lib/run.mjs';
+import { capture, mustRun } from '../../../scripts/lib/run.mjs';
 import { ensureNative } from '../../../scripts/toolchain.mjs';
-import { buildNative, measure, median } from '../support.mjs';
+import { buildNative, ensurePython, measure, median } from '../support.mjs';
 
 const ROUNDS = 7;
 const PEERS = at('build', 'bench-peers', 'bake');
 const PYTHON_PEERS = ['numpy==2.4.6', 'scikit-fmm==2025.6.23'];
 
 /** @typedef {import('../support.mjs').Times} Times */
-
-/** @returns {string | undefined} why scikit-fmm could not be had */
-function ensureScikitFmm() {
-  if (existsSync(path.join(PEERS, 'skfmm'))) return undefined;
-  const python = which('python3');
-  if (!python) return 'there is no python3';
-  console.log('Installing scikit-fmm (pip) …');
-  const { status, stderr } = capture(python, ['-m', 'pip', 'install', '-q', '--target', PEERS, ...PYTHON_PEERS]);
-  return status === 0 ? undefined : `pip could not install scikit-fmm: ${stderr.trim().split('\n').at(-1)}`;
-}
 
 /** The served dog's mesh as bench.cpp reads it. @param {string} file */
 async function writeDog(file) {
@@ -41,7 +31,7 @@ async function writeDog(file) {
 /** Runs it, prints the table and writes results.json. */
 export async function benchBake() {
   await mustRun(process.execPath, [at('scripts', 'build.mjs'), 'library']);
-  const problem = ensureScikitFmm() ?? (await ensureNative());
+  const problem = ensurePython(PEERS, 'skfmm', PYTHON_PEERS) ?? (await ensureNative());
   if (problem) {
     console.log(`bake: NOT RUN (${problem})`);
     return;

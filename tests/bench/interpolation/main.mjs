@@ -8,9 +8,9 @@ import { cpus, tmpdir } from 'node:os';
 import path from 'node:path';
 import { npm } from '../../../scripts/lib/install.mjs';
 import { at } from '../../../scripts/lib/paths.mjs';
-import { capture, mustRun, which } from '../../../scripts/lib/run.mjs';
+import { mustRun } from '../../../scripts/lib/run.mjs';
 import { ensureNative } from '../../../scripts/toolchain.mjs';
-import { buildNative, measure, median } from '../support.mjs';
+import { buildNative, ensurePython, measure, median } from '../support.mjs';
 import { COUNTS, writeData } from './setup.mjs';
 
 const ROUNDS = 7;
@@ -31,17 +31,6 @@ async function ensureNpmRbf() {
   } catch {
     return 'npm could not install rbf';
   }
-}
-
-/** Installs SciPy beside it. @returns {string | undefined} why it could not be had */
-function ensureScipy() {
-  const folder = path.join(PEERS, 'python');
-  if (existsSync(path.join(folder, 'scipy'))) return undefined;
-  const python = which('python3');
-  if (!python) return 'there is no python3';
-  console.log('Installing SciPy (pip) …');
-  const { status, stderr } = capture(python, ['-m', 'pip', 'install', '-q', '--target', folder, ...PYTHON_PEERS]);
-  return status === 0 ? undefined : `pip could not install SciPy: ${stderr.trim().split('\n').at(-1)}`;
 }
 
 /** Settings of one machine for NumPy's BLAS are not what a user has. */
@@ -67,7 +56,9 @@ export async function benchInterpolation() {
     const problem = await ensureNative();
     const native = problem ? '' : await buildNative('sse2', [], 'handlebody_bench_interpolation');
     add('native', problem, () => measure(native, [file]));
-    add('scipy', ensureScipy(), () => measure('python3', [here('scipy_side.py'), file], scipyEnvironment()));
+    add('scipy', ensurePython(path.join(PEERS, 'python'), 'scipy', PYTHON_PEERS), () =>
+      measure('python3', [here('scipy_side.py'), file], scipyEnvironment()),
+    );
     add('npm', await ensureNpmRbf(), () => measure(process.execPath, [here('npm-rbf-side.mjs'), PEERS]));
 
     /** @type {Record<string, Times[]>} */

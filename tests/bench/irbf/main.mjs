@@ -4,13 +4,13 @@
  * version; loading beside baking. In turns in one run, as ratios. Results go to results.json beside this file. Absolute times are those of
  * a noisy machine: compare ratios only.
  */
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
 import path from 'node:path';
 import { at } from '../../../scripts/lib/paths.mjs';
-import { capture, mustRun, which } from '../../../scripts/lib/run.mjs';
+import { mustRun } from '../../../scripts/lib/run.mjs';
 import { ensureNative } from '../../../scripts/toolchain.mjs';
-import { buildNative, measure, median } from '../support.mjs';
+import { buildNative, ensurePython, measure, median } from '../support.mjs';
 import { caseFile, DEFORMED, makeBodies } from './bodies.mjs';
 import { firstFrame } from './first-frame.mjs';
 import { print } from './print.mjs';
@@ -22,21 +22,11 @@ const PYTHON_PEERS = ['numpy==2.4.6', 'scipy==1.17.1', 'libigl==2.6.3'];
 
 /** @typedef {import('../support.mjs').Times} Times */
 
-/** @returns {string | undefined} why libigl could not be had */
-function ensureLibigl() {
-  if (existsSync(path.join(PEERS, 'igl'))) return undefined;
-  const python = which('python3');
-  if (!python) return 'there is no python3';
-  console.log('Installing libigl (pip) …');
-  const { status, stderr } = capture(python, ['-m', 'pip', 'install', '-q', '--target', PEERS, ...PYTHON_PEERS]);
-  return status === 0 ? undefined : `pip could not install libigl: ${stderr.trim().split('\n').at(-1)}`;
-}
-
 /** Runs it, prints the tables and writes results.json. */
 export async function benchIrbf() {
   await mustRun(process.execPath, [at('scripts', 'build.mjs')]);
   const here = (/** @type {string} */ name) => at('tests', 'bench', 'irbf', name);
-  const [noPeer, noNative] = [ensureLibigl(), await ensureNative()];
+  const [noPeer, noNative] = [ensurePython(PEERS, 'igl', PYTHON_PEERS), await ensureNative()];
   if (noPeer) console.log(`libigl: NOT RUN (${noPeer})`);
   if (noNative) console.log(`native side: NOT RUN (${noNative})`);
   const program = noNative ? undefined : await buildNative('sse2', []);
@@ -79,6 +69,7 @@ export async function benchIrbf() {
       quality: quality(bar, arapBar),
       loading: loading(taken.loading ?? []),
       loadMilliseconds: Math.round(median((taken.loading ?? []).map((times) => times.load ?? Number.NaN))),
+      unpackMilliseconds: Math.round(median((taken.loading ?? []).map((times) => times.unpack ?? Number.NaN))),
       firstFrame: await firstFrame(),
     };
     print(record);

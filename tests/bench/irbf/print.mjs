@@ -27,6 +27,7 @@ const overReading = (ratios) => [
  *   quality: ReturnType<typeof import('./results.mjs').quality>,
  *   loading: ReturnType<typeof import('./results.mjs').loading>,
  *   loadMilliseconds: number,
+ *   unpackMilliseconds: number,
  *   firstFrame: string,
  * }} record
  */
@@ -114,6 +115,6 @@ export function print(record) {
     row([name, ratio, l.framesOfASixtieth, l.readyMilliseconds, l.bakeMilliseconds, l.megabytes, l.megabytesToBake], 34);
   }
   console.log(
-    `\nload() in Node: ${record.loadMilliseconds} ms. Studio in headless Chromium (software rendering), from navigation: ${record.firstFrame}`,
+    `\nload() in Node: ${record.loadMilliseconds} ms; unpacking the served dog: ${record.unpackMilliseconds} ms. Studio in headless Chromium (software rendering), from navigation: ${record.firstFrame}`,
   );
 }

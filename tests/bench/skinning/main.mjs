@@ -3,13 +3,13 @@
  * gingerbread man of 2,250 vertices and 6 handles, and a frame of 20,000 vertices and 10 handles beside a copy of the bytes that it touches.
  * Results go to results.json beside this file. Absolute times are those of a noisy machine: compare ratios only.
  */
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
 import path from 'node:path';
 import { at } from '../../../scripts/lib/paths.mjs';
-import { capture, mustRun, which } from '../../../scripts/lib/run.mjs';
+import { capture, mustRun } from '../../../scripts/lib/run.mjs';
 import { ensureNative } from '../../../scripts/toolchain.mjs';
-import { buildNative, measure, median } from '../support.mjs';
+import { buildNative, ensurePython, measure, median } from '../support.mjs';
 
 const ROUNDS = 5;
 const VERTICES = 2250;
@@ -18,20 +18,10 @@ const PYTHON_PEERS = ['numpy==2.4.6', 'scipy==1.17.1', 'libigl==2.6.3'];
 
 /** @typedef {import('../support.mjs').Times} Times */
 
-/** @returns {string | undefined} why libigl could not be had */
-function ensureLibigl() {
-  if (existsSync(path.join(PEERS, 'igl'))) return undefined;
-  const python = which('python3');
-  if (!python) return 'there is no python3';
-  console.log('Installing libigl (pip) …');
-  const { status, stderr } = capture(python, ['-m', 'pip', 'install', '-q', '--target', PEERS, ...PYTHON_PEERS]);
-  return status === 0 ? undefined : `pip could not install libigl: ${stderr.trim().split('\n').at(-1)}`;
-}
-
 /** Runs it, prints the table and writes results.json. */
 export async function benchSkinning() {
   await mustRun(process.execPath, [at('scripts', 'build.mjs'), 'library']);
-  const problem = ensureLibigl() ?? (await ensureNative());
+  const problem = ensurePython(PEERS, 'igl', PYTHON_PEERS) ?? (await ensureNative());
   if (problem) {
     console.log(`skinning: NOT RUN (${problem})`);
     return;
