@@ -57,7 +57,7 @@ function exportSignatures(header) {
   });
 }
 
-const status = readFileSync(at('wasm/core/numerics/status.h'), 'utf8');
+const status = readFileSync(at('wasm/core/errors/status.h'), 'utf8');
 const abi = readFileSync(at('wasm/abi/handlebody.h'), 'utf8');
 const codes = enumEntries(status, 'HB_ERROR_');
 const warnings = enumEntries(status, 'HB_WARNING_');
@@ -73,7 +73,7 @@ function write(name, text) {
 
 write(
   'wasm/ts/abi.generated.ts',
-  `// Generated from wasm/abi/handlebody.h and wasm/core/numerics/status.h by scripts/generate.mjs.
+  `// Generated from wasm/abi/handlebody.h and wasm/core/errors/status.h by scripts/generate.mjs.
 
 export const ERROR_CODES = {
 ${map(codes)}

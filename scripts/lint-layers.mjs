@@ -6,7 +6,8 @@ import { at } from './lib/paths.mjs';
 import { runMain } from './lib/run.mjs';
 import { sourceFiles } from './lib/sources.mjs';
 
-const FLOOR_1 = ['wasm/core/numerics', 'wasm/core/kernels', 'wasm/core/mesh'];
+const GROUND = ['wasm/core/errors'];
+const FLOOR_1 = [...GROUND, 'wasm/core/numerics', 'wasm/core/kernels', 'wasm/core/mesh'];
 const FLOOR_2 = ['wasm/core/interpolation', 'wasm/core/distance', 'wasm/core/skinning'];
 const FLOOR_3 = ['wasm/core/irbf', 'wasm/core/posespace'];
 const CORE = [...FLOOR_1, ...FLOOR_2, ...FLOOR_3];
@@ -25,9 +26,10 @@ const GLTF = '@gltf-transform/';
 
 /** @type {Record<string, Layer>} The longest folder that contains a file decides. */
 export const LAYERS = {
-  'wasm/core/numerics': { may: [] },
-  'wasm/core/kernels': { may: ['wasm/core/numerics'] },
-  'wasm/core/mesh': { may: ['wasm/core/numerics'] },
+  'wasm/core/errors': { may: [] },
+  'wasm/core/numerics': { may: GROUND },
+  'wasm/core/kernels': { may: [...GROUND, 'wasm/core/numerics'] },
+  'wasm/core/mesh': { may: [...GROUND, 'wasm/core/numerics'] },
   'wasm/core/interpolation': { may: FLOOR_1 },
   'wasm/core/distance': { may: FLOOR_1 },
   'wasm/core/skinning': { may: FLOOR_1 },

@@ -79,7 +79,7 @@ TEST_CASE("as rigid as possible: libigl's to 1e-5 of the extent") {
   for (const auto& line : oracle_lines("as_rigid_as_possible.json")) {
     const auto numbers = [&](const char* key) { return oracle_numbers(line, key); };
     const auto rows = [](const std::vector<double>& list, Index columns) {
-      return Matrix(Eigen::Map<const Matrix>(list.data(), static_cast<Index>(list.size()) / columns, columns));
+      return Matrix(Eigen::Map<const Matrix>(list.data(), std::ssize(list) / columns, columns));
     };
     const auto vertices = numbers("vertices"), owners = numbers("owners"), transforms = numbers("transforms");
     const SimplexMesh mesh{rows(numbers("positions"), 2), rows(numbers("triangles"), 3).cast<std::uint32_t>()};
@@ -129,7 +129,7 @@ TEST_CASE(
   CHECK(skin->report().flips == 0);
   const DeformationReport before = skin->report();
   skin->transforms()[3] = NAN;
-  std::vector<float> out(static_cast<std::size_t>(2 * mesh.positions.rows()), 7);
+  std::vector<float> out(2 * mesh.positions.rows(), 7);
   CHECK(skin->deform(out.data()).error().code == HB_ERROR_TARGET_NOT_FINITE);
   CHECK(out[0] == 7);
   CHECK(skin->report().energy == before.energy);

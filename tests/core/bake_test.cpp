@@ -314,7 +314,7 @@ TEST_CASE("density draws centers: nine times as dense, a third as far apart") {
   options.density.pop_back();
   CHECK(bake(mesh.positions, mesh.triangles, options).code == HB_ERROR_INVALID_SHAPE);
   for (const double wrong : {0., -1., std::nan(""), 1e9}) {
-    options.density.assign(static_cast<std::size_t>(mesh.positions.rows()), 1);
+    options.density.assign(mesh.positions.rows(), 1);
     options.density[7] = wrong;
     CHECK(bake(mesh.positions, mesh.triangles, options).code == HB_ERROR_INVALID_OPTION);
   }
@@ -325,7 +325,7 @@ TEST_CASE("codes give the distances back to one code, and no center is taken twi
   auto made = make_interior_distance(DistanceMethod::fast_marching, baked.body.domain, bar.positions, bar.triangles);
   REQUIRE(made);
   auto& exact = *made;
-  std::vector<double> field(static_cast<std::size_t>(baked.body.domain.size()));
+  std::vector<double> field(baked.body.domain.size());
   double largest = 0;
   for (std::size_t c = 0; c < baked.body.centers.size(); ++c) {
     exact->measure(baked.body.center_position(static_cast<Index>(c)), field.data());

@@ -59,7 +59,7 @@ void check_feasible(const Problem& problem, const Matrix& w) {
   for (std::size_t k = 0; k < problem.held.vertices.size(); ++k) CHECK(w(problem.held.vertices[k], problem.held.owners[k]) == 1);
 }
 
-Numbers whole(const std::vector<double>& from) {
+Indices whole(const std::vector<double>& from) {
   return {from.begin(), from.end()};
 }
 
@@ -68,9 +68,8 @@ Problem oracle_problem(const std::string& line) {
   const auto d = static_cast<Index>(oracle_numbers(line, "dimension").at(0));
   const auto corners = static_cast<Index>(oracle_numbers(line, "corners").at(0));
   SimplexMesh mesh;
-  mesh.positions = Eigen::Map<const Matrix>(positions.data(), static_cast<Index>(positions.size()) / d, d);
-  mesh.simplices =
-      Eigen::Map<const Matrix>(simplices.data(), static_cast<Index>(simplices.size()) / corners, corners).cast<std::uint32_t>();
+  mesh.positions = Eigen::Map<const Matrix>(positions.data(), std::ssize(positions) / d, d);
+  mesh.simplices = Eigen::Map<const Matrix>(simplices.data(), std::ssize(simplices) / corners, corners).cast<std::uint32_t>();
   HeldVertices held{whole(oracle_numbers(line, "vertices")), whole(oracle_numbers(line, "owners")), 0};
   held.handle_count = held.owners.back() + 1;
   return made(mesh, held);
@@ -117,11 +116,11 @@ HeldVertices scattered_handles(Index vertices, std::uint32_t count, std::mt19937
  * could fall by, at first order, if every vertex gave all to the handle that pulls most. */
 double stationarity(const Problem& problem, const Matrix& w) {
   const Matrix y = forces(problem, w);
-  std::vector<bool> held(static_cast<std::size_t>(w.rows()), false);
+  std::vector<bool> held(w.rows(), false);
   for (const std::uint32_t vertex : problem.held.vertices) held[vertex] = true;
   double sum = 0;
   for (Index i = 0; i < w.rows(); ++i)
-    if (!held[static_cast<std::size_t>(i)]) sum += y.row(i).dot(w.row(i)) - y.row(i).minCoeff();
+    if (!held[i]) sum += y.row(i).dot(w.row(i)) - y.row(i).minCoeff();
   return sum;
 }
 

@@ -55,7 +55,7 @@ MadeMesh cell_surface(const Planes& planes, const Inside& inside) {
             key[axis] += high;
             key[u] += corner == 1 || corner == 2;
             key[v] += corner >= 2;
-            quad[static_cast<std::size_t>(corner)] = number(key);
+            quad[corner] = number(key);
           }
           if (!high) std::swap(quad[1], quad[3]);
           const std::size_t s = (cell[0] + cell[1] + cell[2]) % 2;
@@ -65,7 +65,7 @@ MadeMesh cell_surface(const Planes& planes, const Inside& inside) {
     }
   }
   MadeMesh mesh;
-  mesh.positions.resize(static_cast<Index>(points.size()), 3);
+  mesh.positions.resize(std::ssize(points), 3);
   for (std::size_t p = 0; p < points.size(); ++p) mesh.positions.row(static_cast<Index>(p)) = points[p];
   mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Index>(corners.size() / 3), 3);
   return mesh;
@@ -85,7 +85,7 @@ inline MadeMesh ring_surface(double height, int around, int across, int up) {
   for (int a = 0; a < around; ++a) {
     const double angle = 2 * std::numbers::pi * a / around;
     for (int k = 0; k < n; ++k) {
-      const auto [r, z] = outline[static_cast<std::size_t>(k)];
+      const auto [r, z] = outline[k];
       mesh.positions.row(a * n + k) = Vector3(.5 + r * std::cos(angle), .5 + r * std::sin(angle), z);
       const auto p = static_cast<std::uint32_t>(a * n + k), q = static_cast<std::uint32_t>(a * n + (k + 1) % n);
       const auto r1 = static_cast<std::uint32_t>((a + 1) % around * n + (k + 1) % n),
@@ -129,7 +129,7 @@ inline MadeMesh octahedral_sphere(int divisions) {
     }
   }
   MadeMesh mesh;
-  mesh.positions.resize(static_cast<Index>(points.size()), 3);
+  mesh.positions.resize(std::ssize(points), 3);
   for (std::size_t p = 0; p < points.size(); ++p) mesh.positions.row(static_cast<Index>(p)) = points[p];
   mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Index>(corners.size() / 3), 3);
   return mesh;

@@ -24,9 +24,9 @@ Matrix ball_points(std::mt19937& random, Index count, Index dimension) {
   return points / (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-Matrix rows_of(const Matrix& points, const Numbers& members) {
-  Matrix rows(static_cast<Index>(members.size()), points.cols());
-  for (Index m = 0; m < rows.rows(); ++m) rows.row(m) = points.row(members[static_cast<std::size_t>(m)]);
+Matrix rows_of(const Matrix& points, const Indices& members) {
+  Matrix rows(std::ssize(members), points.cols());
+  for (Index m = 0; m < rows.rows(); ++m) rows.row(m) = points.row(members[m]);
   return rows;
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("a Delaunay cell depends on the place alone, not on what was asked bef
   const Matrix points = ball_points(random, 60, 3);
   DelaunayCell one(points);
   std::vector<Vector> places;
-  std::vector<Numbers> answers;
+  std::vector<Indices> answers;
   for (int repeat = 0; repeat < 60; ++repeat) {
     places.emplace_back(0.1 * random_points(random, 1, 3).row(0).transpose());
     REQUIRE(one.find(places.back().data()));
@@ -111,9 +111,9 @@ TEST_CASE("a Delaunay cell depends on the place alone, not on what was asked bef
   }
   // At a point, that point; with one point there is nothing else.
   REQUIRE(one.find(&points(17, 0)));
-  CHECK(one.members() == Numbers{17});
+  CHECK(one.members() == Indices{17});
   DelaunayCell single(Matrix::Zero(1, 0));
   const double nowhere = 0;
   REQUIRE(single.find(&nowhere));
-  CHECK(single.members() == Numbers{0});
+  CHECK(single.members() == Indices{0});
 }

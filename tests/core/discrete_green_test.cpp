@@ -24,7 +24,7 @@ constexpr GridBoundary boundaries[] = {free_ends, GridBoundary::dirichlet, GridB
 
 DiscreteGreen make(Index size, int order, GridBoundary boundary, const std::vector<std::uint32_t>& samples,
                    const std::vector<double>& values) {
-  auto made = DiscreteGreen::create(size, order, boundary, samples.data(), values.data(), static_cast<Index>(samples.size()));
+  auto made = DiscreteGreen::create(size, order, boundary, samples.data(), values.data(), std::ssize(samples));
   REQUIRE(made);
   return std::move(*made);
 }
@@ -47,7 +47,7 @@ double largest(const Matrix& m) {
 
 hb_status code_of(Index size, int order, GridBoundary boundary, const std::vector<std::uint32_t>& samples,
                   const std::vector<double>& values) {
-  auto made = DiscreteGreen::create(size, order, boundary, samples.data(), values.data(), static_cast<Index>(samples.size()));
+  auto made = DiscreteGreen::create(size, order, boundary, samples.data(), values.data(), std::ssize(samples));
   if (made) return HB_OK;
   CHECK(!made.error().remedy.empty());
   return made.error().code;
@@ -69,7 +69,7 @@ TEST_CASE(
     if (line.find("\"size\"") == std::string::npos) continue;
     const auto number = [&](const char* key) { return numbers(line, key).at(0); };
     const auto size = static_cast<Index>(number("size"));
-    const auto boundary = boundaries[static_cast<std::size_t>(number("boundary"))];
+    const auto boundary = boundaries[number("boundary")];
     const auto green =
         make(size, static_cast<int>(number("order")), boundary, whole(numbers(line, "samples")), numbers(line, "values"));
     CAPTURE(line.substr(0, 60));
@@ -175,17 +175,17 @@ TEST_CASE("discrete Green's functions: grid and radial solves agree for any samp
         CAPTURE(static_cast<unsigned>(boundary));
         CAPTURE(order);
         CAPTURE(size);
-        std::vector<std::uint32_t> samples(static_cast<std::size_t>(size));
+        std::vector<std::uint32_t> samples(size);
         for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<std::uint32_t>(i);
         std::shuffle(samples.begin(), samples.end(), random);
-        samples.resize(static_cast<std::size_t>(std::max<Index>(order, size / 5)));
+        samples.resize(std::max<Index>(order, size / 5));
         std::vector<double> values(samples.size());
         for (double& value : values) value = normal(random);
         const auto green = make(size, order, boundary, samples, values);
         const Vector f = on_grid(green), g = radial(green);
         // What cancels among the radial functions is 1e-16 of G's largest element times λ's.
         const double lambda = largest(green.squared() * f);
-        Vector again(size), weights(static_cast<Index>(samples.size()) + green.null_space().cols());
+        Vector again(size), weights(std::ssize(samples) + green.null_space().cols());
         green.solve_radial(again.data(), weights.data());
         CHECK(again == g);
         for (std::size_t k = 0; k < samples.size(); ++k)  // λ is the force that DᵀD f takes

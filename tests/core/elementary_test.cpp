@@ -18,7 +18,7 @@ TEST_CASE("logarithms are the C library's to 3 units in the last place (seed 71)
   for (int i = 0; i < 20000; ++i) x.push_back(1 + near(random));
   for (const double special : {1.0, 0.5, 2.0, 0.70710678118654752, 1.4142135623730951, 1e308, 3e-308}) x.push_back(special);
   std::vector<double> logs = x;
-  logarithms(logs.data(), static_cast<Index>(logs.size()));
+  logarithms(logs.data(), std::ssize(logs));
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double expected = std::log(x[i]);
@@ -39,7 +39,7 @@ TEST_CASE("decaying exponentials are the C library's to a relative error of 1e-1
   for (int i = 0; i < 20000; ++i) x.push_back(narrow(random));
   for (const double special : {0.0, 1e-300, 1e-17, 0.34657359027997264, 0.3465735902799727, 707.9}) x.push_back(special);
   std::vector<double> values = x;
-  decaying_exponentials(values.data(), static_cast<Index>(values.size()));
+  decaying_exponentials(values.data(), std::ssize(values));
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(values[i] / std::exp(-x[i]) - 1));
   CHECK(worst < 1e-15);
@@ -58,7 +58,7 @@ TEST_CASE("inverse powers, whole and broken, agree with the C library's") {
     std::vector<double> x = {least, least * 1.0000001, 4e-7, 1e-6, 0.1, 1, 77, 1e9, 1e300}, expected;
     for (const double value : x) expected.push_back(std::pow(least / value, p));
     std::vector<double> found = x;
-    inverse_powers(found.data(), static_cast<Index>(found.size()), least, p);
+    inverse_powers(found.data(), std::ssize(found), least, p);
     for (std::size_t i = 0; i < x.size(); ++i) {
       CAPTURE(p);
       CAPTURE(x[i]);

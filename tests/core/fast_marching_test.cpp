@@ -96,7 +96,7 @@ TEST_CASE("fast marching agrees with scikit-fmm in an L") {
   Grid grid{Vector3::Zero(), 1, {}};
   Vector3 source;
   file >> grid.dims[0] >> grid.dims[1] >> grid.dims[2] >> source[0] >> source[1] >> source[2];
-  std::vector<double> expected(static_cast<std::size_t>(grid.size()));
+  std::vector<double> expected(grid.size());
   for (double& value : expected) file >> value;
   REQUIRE(file);
   std::vector<std::uint32_t> voxels;

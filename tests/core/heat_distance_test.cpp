@@ -126,7 +126,7 @@ TEST_CASE("heat reaches the end of a corridor that is one voxel wide and 3000 lo
 
 TEST_CASE("heat refuses a domain whose factors would not fit, before it allocates them") {
   const Grid grid = *make_grid({0, 0, 0}, {1, 1, 1}, 60);
-  std::vector<std::uint32_t> voxels(static_cast<std::size_t>(grid.size()));
+  std::vector<std::uint32_t> voxels(grid.size());
   for (std::size_t v = 0; v < voxels.size(); ++v) voxels[v] = static_cast<std::uint32_t>(v);
   const VoxelDomain domain(grid, std::move(voxels));
   HeatDistance heat(domain);

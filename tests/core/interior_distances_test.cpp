@@ -31,7 +31,7 @@ double asymmetry(const VoxelDomain& domain, const Measure& measure) {
   double largest = 0;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const double there = from[a][static_cast<std::size_t>(voxels[b])], back = from[b][static_cast<std::size_t>(voxels[a])];
+      const double there = from[a][voxels[b]], back = from[b][voxels[a]];
       if ((domain.center(voxels[a]) - domain.center(voxels[b])).norm() < 5 * domain.grid().spacing) continue;
       largest = std::max(largest, 2 * std::abs(there - back) / (there + back));
     }

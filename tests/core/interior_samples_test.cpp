@@ -46,7 +46,7 @@ TEST_CASE("in a convex domain the cone at the center is exact wherever the field
 TEST_CASE("a marched field read next to its center is exact, and nowhere below the Euclidean distance (seed 11)") {
   const VoxelDomain domain = domain_where(cube_grid(24), [](const Vector3& p) { return std::abs(p[0]) > .3 || p[2] > .3; });
   const Vector3 center(-.6, .1, -1);
-  std::vector<double> field(static_cast<std::size_t>(domain.size()));
+  std::vector<double> field(domain.size());
   FastMarching(domain).march(center, field.data());
   const double h = domain.grid().spacing;
   std::mt19937 random(11);

@@ -103,7 +103,7 @@ struct Accuracy {
  *  up. */
 template <typename Measure>
 Accuracy accuracy(const KnownShape& shape, const VoxelDomain& domain, const Measure& measure) {
-  std::vector<double> d(static_cast<std::size_t>(domain.size()));
+  std::vector<double> d(domain.size());
   Accuracy result;
   double count = 0;
   for (const Vector2& s : shape.sources) {
@@ -112,7 +112,7 @@ Accuracy accuracy(const KnownShape& shape, const VoxelDomain& domain, const Meas
     for (Index v = 0; v < domain.size(); ++v) {
       const Vector3 p = domain.center(v);
       if ((p - source).norm() < 5 * domain.grid().spacing) continue;
-      const double error = d[static_cast<std::size_t>(v)] / shape.distance(source, p) - 1;
+      const double error = d[v] / shape.distance(source, p) - 1;
       result.mean += std::abs(error), result.bias += error, ++count;
       result.largest = std::max(result.largest, std::abs(error));
     }

@@ -30,7 +30,7 @@ Matrix textbook(const Matrix& positions, const Matrix& weights, const std::vecto
 
 Matrix matrix(const std::string& line, const std::string& key, Index columns) {
   const auto numbers = oracle_numbers(line, key);
-  return Eigen::Map<const Matrix>(numbers.data(), static_cast<Index>(numbers.size()) / columns, columns);
+  return Eigen::Map<const Matrix>(numbers.data(), std::ssize(numbers) / columns, columns);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ inline MadeMesh made_box(const Vector3& size, const std::array<int, 3>& cells) {
             key[axis] = high ? cells[axis] : 0;
             key[u] = i + (corner == 1 || corner == 2);
             key[v] = j + (corner >= 2);
-            quad[static_cast<std::size_t>(corner)] = number(key);
+            quad[corner] = number(key);
           }
           if (!high) std::swap(quad[1], quad[3]);
           corners.insert(corners.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
@@ -45,7 +45,7 @@ inline MadeMesh made_box(const Vector3& size, const std::array<int, 3>& cells) {
     }
   }
   MadeMesh mesh;
-  mesh.positions.resize(static_cast<Index>(points.size()), 3);
+  mesh.positions.resize(std::ssize(points), 3);
   for (std::size_t p = 0; p < points.size(); ++p) mesh.positions.row(static_cast<Index>(p)) = points[p];
   mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Index>(corners.size() / 3), 3);
   return mesh;

@@ -36,8 +36,8 @@ TEST_CASE("mean value coordinates agree with Ju et al.'s formulas and with quadr
     for (const bool one_side : {false, true}) {
       const std::vector<double> expected = oracle_numbers(line, one_side ? "one_side" : "weights");
       const Vector w = mean_value_coordinates(positions, triangles, {x[0], x[1], x[2]}, one_side);
-      REQUIRE(static_cast<Index>(expected.size()) == w.size());
-      for (Index v = 0; v < w.size(); ++v) CHECK(w[v] == doctest::Approx(expected[static_cast<std::size_t>(v)]).epsilon(1e-8));
+      REQUIRE(std::ssize(expected) == w.size());
+      for (Index v = 0; v < w.size(); ++v) CHECK(w[v] == doctest::Approx(expected[v]).epsilon(1e-8));
     }
   }
 }
@@ -144,7 +144,7 @@ TEST_CASE("a field carries functions inside as the coordinates do, and takes the
     field.evaluate(p, carried.data());
     CHECK(carried[0] == doctest::Approx(1).epsilon(1e-4));
     for (int f = 0; f < 5; ++f) {
-      const double difference = std::abs(carried[static_cast<std::size_t>(f)] - values.col(f).cast<double>().dot(w));
+      const double difference = std::abs(carried[f] - values.col(f).cast<double>().dot(w));
       mean += difference, ++count;
       largest = std::max(largest, difference);
     }
@@ -155,6 +155,6 @@ TEST_CASE("a field carries functions inside as the coordinates do, and takes the
   CHECK(largest < .03);
   for (const Index v : {Index{0}, n / 2, n - 1}) {
     field.evaluate(ring.positions.row(v), carried.data());
-    for (int f = 0; f < 5; ++f) CHECK(carried[static_cast<std::size_t>(f)] == doctest::Approx(values(v, f)));
+    for (int f = 0; f < 5; ++f) CHECK(carried[f] == doctest::Approx(values(v, f)));
   }
 }

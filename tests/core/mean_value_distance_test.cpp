@@ -54,7 +54,7 @@ TEST_CASE("between points of the surface it is the distance along the surface, w
   const MadeMesh sphere = octahedral_sphere(16);
   const VoxelDomain domain = domain_where(cube_grid(24), [](const Vector3& p) { return p.norm() < 1; });
   MeanValueDistance mean_value = ready(sphere, domain);
-  std::vector<double> d(static_cast<std::size_t>(domain.size()));
+  std::vector<double> d(domain.size());
   const Vector3 source = sphere.positions.row(17);
   mean_value.measure(source, d.data());
   double mean = 0, count = 0;
@@ -62,7 +62,7 @@ TEST_CASE("between points of the surface it is the distance along the surface, w
     const Vector3 p = domain.center(v);
     if (p.norm() < .96 || (p - source).norm() < .5) continue;
     const double great_circle = std::acos(std::clamp(source.dot(p.normalized()), -1., 1.));
-    mean += std::abs(d[static_cast<std::size_t>(v)] / great_circle - 1), ++count;
+    mean += std::abs(d[v] / great_circle - 1), ++count;
   }
   mean /= count;
   MESSAGE("mean " << 100 * mean << "% over " << count << " voxels");
@@ -74,7 +74,7 @@ TEST_CASE("a clam's closed lips stay apart, on a grid that cannot see the slit")
   const VoxelDomain domain = block(40);
   MeanValueDistance mean_value = ready(clam(1e-4), domain);
   FastMarching marching(domain);
-  std::vector<double> d(static_cast<std::size_t>(domain.size())), marched(d.size());
+  std::vector<double> d(domain.size()), marched(d.size());
   for (const double x : {.5, .7, .95}) {
     const Vector3 lip(x, .25, .2 + .5e-4);  // on the upper one
     mean_value.measure(lip, d.data());
@@ -97,15 +97,15 @@ TEST_CASE("it is symmetric, never below Euclidean, and twice the same bits") {
   const MadeMesh mesh =
       cell_surface({evenly(1, 16), evenly(1, 16), evenly(8. / 24, 5)}, [](int i, int j, int) { return i < 7 || j < 7; });
   MeanValueDistance mean_value = ready(mesh, domain), again = ready(mesh, domain);
-  std::vector<double> from_a(static_cast<std::size_t>(domain.size())), from_b(from_a.size()), repeated(from_a.size());
+  std::vector<double> from_a(domain.size()), from_b(from_a.size()), repeated(from_a.size());
   const Index n = domain.size();
   for (const auto& [a, b] : {std::pair(n - 1, n / 9), std::pair(n / 20, n / 2)}) {
     mean_value.measure(domain.center(a), from_a.data());
     mean_value.measure(domain.center(b), from_b.data());
-    CHECK(from_a[static_cast<std::size_t>(b)] == doctest::Approx(from_b[static_cast<std::size_t>(a)]));
+    CHECK(from_a[b] == doctest::Approx(from_b[a]));
     for (Index v = 0; v < n; ++v) {
-      CHECK(from_a[static_cast<std::size_t>(v)] >= (domain.center(v) - domain.center(a)).norm());
-      CHECK(std::isfinite(from_a[static_cast<std::size_t>(v)]));
+      CHECK(from_a[v] >= (domain.center(v) - domain.center(a)).norm());
+      CHECK(std::isfinite(from_a[v]));
     }
     again.measure(domain.center(a), repeated.data());
     CHECK(repeated == from_a);
@@ -128,7 +128,7 @@ TEST_CASE("split vertices, triangles without area and a surface turned inside ou
   split.positions.row(3 * m) = Vector3(.5, .5, .2);
   split.triangles.row(m) << 0, 1, 1;
   MeanValueDistance plain = ready(mesh, domain), other = ready(split, domain);
-  std::vector<double> a(static_cast<std::size_t>(domain.size())), b(a.size());
+  std::vector<double> a(domain.size()), b(a.size());
   for (const Vector3& source : {Vector3(0, .3, .1), Vector3(.8, .9, .5)}) {
     plain.measure(source, a.data());
     other.measure(source, b.data());

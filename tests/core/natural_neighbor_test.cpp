@@ -82,7 +82,7 @@ std::vector<double> numbers(const std::string& line, const std::string& key) {
 
 Matrix matrix(const std::string& line, const std::string& key, Index columns) {
   const auto values = numbers(line, key);
-  return Eigen::Map<const Matrix>(values.data(), static_cast<Index>(values.size()) / columns, columns);
+  return Eigen::Map<const Matrix>(values.data(), std::ssize(values) / columns, columns);
 }
 
 /** What rounding the coordinates of the points to doubles does to a gradient near a query: nothing that it could be blamed for. */

@@ -18,13 +18,12 @@ SimplexMesh oracle_mesh(const std::string& line) {
   const auto d = static_cast<Index>(oracle_numbers(line, "dimension").at(0));
   const auto corners = static_cast<Index>(oracle_numbers(line, "corners").at(0));
   SimplexMesh mesh;
-  mesh.positions = Eigen::Map<const Matrix>(positions.data(), static_cast<Index>(positions.size()) / d, d);
-  mesh.simplices =
-      Eigen::Map<const Matrix>(simplices.data(), static_cast<Index>(simplices.size()) / corners, corners).cast<std::uint32_t>();
+  mesh.positions = Eigen::Map<const Matrix>(positions.data(), std::ssize(positions) / d, d);
+  mesh.simplices = Eigen::Map<const Matrix>(simplices.data(), std::ssize(simplices) / corners, corners).cast<std::uint32_t>();
   return mesh;
 }
 
-Numbers whole(const std::vector<double>& from) {
+Indices whole(const std::vector<double>& from) {
   return {from.begin(), from.end()};
 }
 
@@ -75,8 +74,7 @@ TEST_CASE("the operators are libigl's to 1e-10") {
                               entries = oracle_numbers(line, "entries");
     Matrix ours = Matrix::Zero(laplacian.rows(), laplacian.rows()), theirs = ours;
     for (Index i = 0; i < laplacian.rows(); ++i)
-      for (std::uint32_t k = laplacian.starts[static_cast<std::size_t>(i)]; k < laplacian.starts[static_cast<std::size_t>(i) + 1];
-           ++k)
+      for (std::uint32_t k = laplacian.starts[i]; k < laplacian.starts[static_cast<std::size_t>(i) + 1]; ++k)
         ours(i, laplacian.columns[k]) = laplacian.values[k];
     for (std::size_t k = 0; k < rows.size(); ++k) {
       theirs(static_cast<Index>(rows[k]), static_cast<Index>(columns[k])) = entries[k];
@@ -100,7 +98,7 @@ TEST_CASE("weights are libigl's: harmonic and biharmonic to 1e-7, triharmonic to
       REQUIRE(weights.set_handles(oracle_handles(line)));
       CHECK(weights.factored());
       const std::vector<double> theirs = oracle_numbers(line, "weights" + std::to_string(order));
-      REQUIRE(static_cast<Index>(theirs.size()) == weights.weights().size());
+      REQUIRE(std::ssize(theirs) == weights.weights().size());
       const double error =
           (weights.weights() - Eigen::Map<const Matrix>(theirs.data(), weights.weights().rows(), weights.weights().cols()))
               .cwiseAbs()
@@ -212,7 +210,7 @@ TEST_CASE("handles that cannot be are named, and the former weights stay") {
   CHECK(code({{3}, {0}, 2}) == HB_ERROR_HANDLE_OUT_OF_RANGE);
   CHECK(code({{3}, {1}, 1}) == HB_ERROR_INVALID_OPTION);
   CHECK(weights.weights() == before);
-  CHECK(weights.held().vertices == Numbers{0, 24});
+  CHECK(weights.held().vertices == Indices{0, 24});
 }
 
 TEST_CASE("meshes that cannot be are named") {

@@ -45,7 +45,7 @@ Result<Rbf> fit(const Matrix& places, const RbfOptions& options) {
 }
 
 Matrix matrix_of(const std::vector<double>& values, Index columns) {
-  return Eigen::Map<const Matrix>(values.data(), static_cast<Index>(values.size()) / columns, columns);
+  return Eigen::Map<const Matrix>(values.data(), std::ssize(values) / columns, columns);
 }
 
 hb_status code_of(const Matrix& places, const RbfOptions& options) {
@@ -90,7 +90,7 @@ TEST_CASE("RBF interpolation agrees with SciPy's RBFInterpolator and a textbook 
                                oracle_numbers(line, "normalized").at(0) != 0);
     const auto dimension = static_cast<Index>(oracle_numbers(line, "dimension").at(0));
     const auto widths = oracle_numbers(line, "widths");
-    options.basis.widths = Eigen::Map<const Vector>(widths.data(), static_cast<Index>(widths.size()));
+    options.basis.widths = Eigen::Map<const Vector>(widths.data(), std::ssize(widths));
     const Matrix points = matrix_of(oracle_numbers(line, "points"), dimension);
     const Matrix values = matrix_of(oracle_numbers(line, "values"), 1);
     const Matrix queries = matrix_of(oracle_numbers(line, "queries"), dimension);

@@ -24,7 +24,7 @@ inline Matrix random_points(std::mt19937& random, Index count, Index dimension) 
 }
 
 inline Matrix matrix_of(const std::vector<double>& values, Index columns) {
-  return Eigen::Map<const Matrix>(values.data(), static_cast<Index>(values.size()) / columns, columns);
+  return Eigen::Map<const Matrix>(values.data(), std::ssize(values) / columns, columns);
 }
 
 inline Matrix values_at(Interpolant& f, const Matrix& queries) {

@@ -29,7 +29,7 @@ hb_status code_of(const Matrix& points, const Matrix& values, double power, doub
 }
 
 Matrix row(std::initializer_list<double> numbers) {
-  Matrix out(1, static_cast<Index>(numbers.size()));
+  Matrix out(1, std::ssize(numbers));
   std::copy(numbers.begin(), numbers.end(), out.data());
   return out;
 }

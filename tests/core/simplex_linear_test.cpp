@@ -231,13 +231,13 @@ TEST_CASE("simplex linear does not depend on the order of points, nor on that of
       CHECK(values_at(f, queries.row(q))(0, 0) == expected(q, 0));
       CHECK(values_at(g, queries.row(q))(0, 0) == expected(q, 0));
     }
-    std::vector<Index> order(static_cast<std::size_t>(n));
-    for (Index i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
+    std::vector<Index> order(n);
+    for (Index i = 0; i < n; ++i) order[i] = i;
     std::shuffle(order.begin(), order.end(), random);
     Matrix shuffled(n, points.cols()), their_values(n, 1);
     for (Index i = 0; i < n; ++i) {
-      shuffled.row(i) = points.row(order[static_cast<std::size_t>(i)]);
-      their_values.row(i) = values.row(order[static_cast<std::size_t>(i)]);
+      shuffled.row(i) = points.row(order[i]);
+      their_values.row(i) = values.row(order[i]);
     }
     auto h = made(shuffled, their_values);
     CHECK(largest_difference(values_at(h, queries), expected) < 1e-10);

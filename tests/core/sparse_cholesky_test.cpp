@@ -55,6 +55,6 @@ TEST_CASE("a factor made in parts is the same to the last bit, and a failed one 
     (*whole)->solve(x.data());
     (*parts)->solve(y.data());
     CHECK(x == y);
-    for (Index i = 0; i < 900; ++i) CHECK(a.row_times(i, x.data()) == doctest::Approx(right[static_cast<std::size_t>(i)]));
+    for (Index i = 0; i < 900; ++i) CHECK(a.row_times(i, x.data()) == doctest::Approx(right[i]));
   }
 }

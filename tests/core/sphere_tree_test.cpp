@@ -35,7 +35,7 @@ void check_tree(const Grid& grid, Depth depth) {
     CHECK(spheres.size() <= static_cast<std::size_t>(std::max(most, parts)));
     CHECK(spheres.size() >= last);
     last = spheres.size();
-    std::vector<bool> served(static_cast<std::size_t>(parts));
+    std::vector<bool> served(parts);
     for (std::size_t s = 0; s < spheres.size(); ++s) {
       served[component[domain.nearest(spheres[s].center)]] = true;
       CHECK(spheres[s].radius == doctest::Approx(options.shrink * depth(spheres[s].center)));

@@ -17,15 +17,15 @@ TEST_CASE("geodesics of a sphere are its great circles") {
   const MadeMesh sphere = octahedral_sphere(24);
   SurfaceGeodesics geodesics(sphere.positions, sphere.triangles);
   const Index n = sphere.positions.rows();
-  std::vector<double> d(static_cast<std::size_t>(n));
+  std::vector<double> d(n);
   double mean = 0, largest = 0, count = 0;
   for (const Index s : {Index{0}, n / 3, n - 5}) {
     geodesics.measure(static_cast<std::uint32_t>(s), d.data());
-    CHECK(d[static_cast<std::size_t>(s)] == 0);
+    CHECK(d[s] == 0);
     for (Index v = 0; v < n; ++v) {
       const double exact = std::acos(std::clamp(sphere.positions.row(s).dot(sphere.positions.row(v)), -1., 1.));
       if (exact < .2) continue;
-      const double error = std::abs(d[static_cast<std::size_t>(v)] / exact - 1);
+      const double error = std::abs(d[v] / exact - 1);
       mean += error, ++count;
       largest = std::max(largest, error);
     }
@@ -62,8 +62,8 @@ TEST_CASE("on a flat face distances are straight, also with triangles of every s
     const Vector3 p = positions.row(v);
     if (std::min(p[0], n - 1 - p[0]) < 1 || std::min(p[1] / 3, n - 1 - p[1] / 3) < 1) continue;
     const double straight = (positions.row(v) - positions.row(source)).norm();
-    CHECK(d[static_cast<std::size_t>(v)] >= straight * (1 - 1e-6));
-    if (straight > 0) largest = std::max(largest, d[static_cast<std::size_t>(v)] / straight - 1);
+    CHECK(d[v] >= straight * (1 - 1e-6));
+    if (straight > 0) largest = std::max(largest, d[v] / straight - 1);
   }
   MESSAGE("largest " << 100 * largest << "%");
   CHECK(largest < .02);

@@ -17,7 +17,7 @@ constexpr unsigned seed = 20140728;
 const double betas[] = {0, 1e-20, 1e-6, 0.3, 1, 40, 1e4, 1e10, 1e16};  // α = 1
 
 Matrix column(const std::vector<double>& numbers) {
-  return Eigen::Map<const Matrix>(numbers.data(), static_cast<Index>(numbers.size()), 1);
+  return Eigen::Map<const Matrix>(numbers.data(), std::ssize(numbers), 1);
 }
 
 TensionSpline1d make(const Matrix& points, const Matrix& values, double beta, double alpha = 1) {

@@ -80,7 +80,7 @@ TEST_CASE("splines with tension agree with minimizing eq. (2) on ever finer grid
     const auto dimension = static_cast<Index>(number("dimension"));
     const auto matrix = [&](const char* name, Index columns) -> Matrix {
       const auto numbers = oracle_numbers(line, name);
-      return Eigen::Map<const Matrix>(numbers.data(), static_cast<Index>(numbers.size()) / columns, columns);
+      return Eigen::Map<const Matrix>(numbers.data(), std::ssize(numbers) / columns, columns);
     };
     Rbf spline = make(matrix("points", dimension), matrix("values", 1),
                       {number("alpha"), number("beta"), number("gamma"), number("smoothing")});

@@ -1,5 +1,5 @@
-// Numbers in messages read as people write them.
-#include "core/numerics/text.hpp"
+// Indices in messages read as people write them.
+#include "core/errors/text.hpp"
 
 #include <doctest/doctest.h>
 

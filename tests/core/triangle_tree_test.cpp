@@ -19,8 +19,8 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
   TriangleTree tree() const {
-    Points p(static_cast<Index>(points.size()), 3);
-    Triangles t(static_cast<Index>(triangles.size()), 3);
+    Points p(std::ssize(points), 3);
+    Triangles t(std::ssize(triangles), 3);
     for (Index i = 0; i < p.rows(); ++i) p.row(i) = points[i];
     for (Index i = 0; i < t.rows(); ++i) t.row(i) << triangles[i][0], triangles[i][1], triangles[i][2];
     return TriangleTree(p, t);

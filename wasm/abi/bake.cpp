@@ -77,7 +77,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   for (int axis = 0; axis < 3; ++axis) {
     out->center[axis] = body.normalization.center(axis);
     out->origin[axis] = grid.origin(axis);
-    out->dims[axis] = static_cast<uint32_t>(grid.dims[static_cast<std::size_t>(axis)]);
+    out->dims[axis] = static_cast<uint32_t>(grid.dims[axis]);
   }
   out->diagonal = body.normalization.diagonal;
   out->spacing = grid.spacing;

@@ -18,7 +18,7 @@
 
 #include <stdint.h>
 
-#include "core/numerics/status.h"
+#include "core/errors/status.h"
 
 #define HB_API
 

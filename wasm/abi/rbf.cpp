@@ -55,8 +55,8 @@ void list_near_pairs(const ScatteredData& data, double spacing, hb_rbf_report& r
       for (Index axis = 0; axis < d; ++axis) squared += (a[i * d + axis] - a[j * d + axis]) * (a[i * d + axis] - a[j * d + axis]);
       if (!(squared < limit)) continue;
       if (report.near_count < most) {
-        report.near_pairs[2 * report.near_count] = data.kept[static_cast<std::size_t>(j)];
-        report.near_pairs[2 * report.near_count + 1] = data.kept[static_cast<std::size_t>(i)];
+        report.near_pairs[2 * report.near_count] = data.kept[j];
+        report.near_pairs[2 * report.near_count + 1] = data.kept[i];
       }
       ++report.near_count;
     }

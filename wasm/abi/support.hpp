@@ -2,7 +2,7 @@
 #pragma once
 
 #include "abi/handlebody.h"
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 
 namespace handlebody {
 

@@ -18,7 +18,7 @@ void dilate(const Grid& grid, std::vector<std::uint8_t>& cells, int radius) {
     for (std::int64_t c = 0; c < grid.size(); ++c) {
       if (c / stride % count != 0) continue;  // the first of a line
       const auto at = [&](int i) { return static_cast<std::size_t>(c + stride * i); };
-      line.assign(static_cast<std::size_t>(count), 0);
+      line.assign(count, 0);
       int last = -radius - 1;
       for (int i = 0; i < count; ++i) {
         if (cells[at(i)]) last = i;
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> filled_shell(const Grid& given, const std::vector<std
     const auto cell = given.cell(c);
     return static_cast<std::size_t>(grid.linear(cell[0] + room, cell[1] + room, cell[2] + room));
   };
-  std::vector<std::uint8_t> splat(static_cast<std::size_t>(grid.size()));
+  std::vector<std::uint8_t> splat(grid.size());
   for (const std::uint32_t voxel : voxels) splat[place_of(voxel)] = 1;
   std::vector<std::uint8_t> taken;
   std::int64_t taken_count = 0;

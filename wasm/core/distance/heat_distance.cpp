@@ -105,7 +105,7 @@ void HeatDistance::assemble() {
 }
 
 Result<Done> HeatDistance::order_rows() {
-  const Numbers order = minimum_degree_order(heat_matrix_);
+  const Indices order = minimum_degree_order(heat_matrix_);
   auto heat = SparseCholesky::analyze(heat_matrix_, order, most_bytes / 2);
   if (!heat) {
     return Error(HB_ERROR_OUT_OF_MEMORY,

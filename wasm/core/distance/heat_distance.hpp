@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/distance/voxel_domain.hpp"
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/sparse_cholesky.hpp"
 #include "core/numerics/sparse_matrix.hpp"
 #include "core/numerics/types.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/distance/voxel_domain.hpp"
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

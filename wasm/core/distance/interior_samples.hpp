@@ -17,8 +17,8 @@ class InteriorSamples {
   /** Adds one more point (solver space). The domain is the same for all. */
   void add(const VoxelDomain& domain, const Vector3& point);
 
-  Index size() const { return static_cast<Index>(points_.size()); }
-  const Vector3& point(Index i) const { return points_[static_cast<std::size_t>(i)]; }
+  Index size() const { return std::ssize(points_); }
+  const Vector3& point(Index i) const { return points_[i]; }
 
   /** The field that stencils interpolate, at the voxels that they use: the ratio of interior to Euclidean distance from `center`.
    * It is 1 in view of the center, so that the cone there is exact. `interior(v)` is the interior distance of voxel v. */
@@ -60,13 +60,13 @@ class InteriorSamples {
     ratios.resize(voxels_.size() * lanes);
     Scalar x[lanes], y[lanes], z[lanes], interior[lanes];
     for (int l = 0; l < lanes; ++l) {
-      const Vector3& center = centers[static_cast<std::size_t>(l)];
+      const Vector3& center = centers[l];
       x[l] = static_cast<Scalar>(center[0]), y[l] = static_cast<Scalar>(center[1]), z[l] = static_cast<Scalar>(center[2]);
     }
     for (std::size_t k = 0; k < voxels_.size(); ++k) {
       const auto px = static_cast<Scalar>(places_[k][0]), py = static_cast<Scalar>(places_[k][1]),
                  pz = static_cast<Scalar>(places_[k][2]);
-      for (int l = 0; l < lanes; ++l) interior[l] = scale * static_cast<Scalar>(codes[static_cast<std::size_t>(l)][voxels_[k]]);
+      for (int l = 0; l < lanes; ++l) interior[l] = scale * static_cast<Scalar>(codes[l][voxels_[k]]);
       Scalar* ratio = ratios.data() + k * lanes;
       for (int l = 0; l < lanes; ++l) {
         const Scalar dx = px - x[l], dy = py - y[l], dz = pz - z[l];
@@ -82,7 +82,7 @@ class InteriorSamples {
                        Scalar* distances) const {
     Scalar x[lanes], y[lanes], z[lanes];
     for (int l = 0; l < lanes; ++l) {
-      const Vector3& center = centers[static_cast<std::size_t>(l)];
+      const Vector3& center = centers[l];
       x[l] = static_cast<Scalar>(center[0]), y[l] = static_cast<Scalar>(center[1]), z[l] = static_cast<Scalar>(center[2]);
     }
     for (Index i = 0; i < count; ++i, distances += lanes) {

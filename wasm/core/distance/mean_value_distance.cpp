@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/mesh/weld.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/symmetric_eigen.hpp"
 
 namespace handlebody {
@@ -18,14 +18,14 @@ constexpr double least_eigenvalue = 1e-4;  // of the largest: smaller ones are t
 constexpr Index voxels_per_step = 256;
 
 /** Every edge is passed as often one way as the other. */
-Result<Done> check_closed(const Triangles& triangles, const Numbers& original) {
+Result<Done> check_closed(const Triangles& triangles, const Indices& original) {
   const std::uint32_t* const corners = triangles.data();
   const auto count = static_cast<std::size_t>(3 * triangles.rows());
   const auto from = [&](std::uint32_t e) { return corners[e]; };
   const auto to = [&](std::uint32_t e) { return corners[e % 3 == 2 ? e - 2 : e + 1]; };
   const auto low = [&](std::uint32_t e) { return std::min(from(e), to(e)); };
   const auto high = [&](std::uint32_t e) { return std::max(from(e), to(e)); };
-  const Numbers edges = sorted_indices(count, [&](std::uint32_t e, std::uint32_t f) {
+  const Indices edges = sorted_indices(count, [&](std::uint32_t e, std::uint32_t f) {
     if (low(e) != low(f)) return low(e) < low(f);
     return high(e) != high(f) ? high(e) < high(f) : e < f;
   });
@@ -72,23 +72,22 @@ Result<MeanValueDistance> MeanValueDistance::begin(const ConstPoints& positions,
   // Vertices that are used, each position once.
   const Weld weld = weld_vertices(positions);
   const Triangles welded = weld_triangles(weld, triangles);
-  constexpr std::uint32_t unused = 0xffffffff;
-  Numbers number(weld.unique.size(), unused), used, original;
+  Indices number(weld.unique.size(), no_index), used, original;
   made.triangles_.resize(welded.rows(), 3);
   for (Index t = 0; t < welded.rows(); ++t) {
     if (welded(t, 0) == welded(t, 1) || welded(t, 1) == welded(t, 2) || welded(t, 2) == welded(t, 0)) continue;
     for (int k = 0; k < 3; ++k) {
       std::uint32_t& v = number[welded(t, k)];
-      if (v == unused) {
+      if (v == no_index) {
         v = static_cast<std::uint32_t>(used.size());
         used.push_back(weld.unique[welded(t, k)]);
       }
-      made.triangles_(static_cast<Index>(original.size()), k) = v;
+      made.triangles_(std::ssize(original), k) = v;
     }
     original.push_back(static_cast<std::uint32_t>(t));
   }
-  made.triangles_.conservativeResize(static_cast<Index>(original.size()), 3);
-  made.positions_.resize(static_cast<Index>(used.size()), 3);
+  made.triangles_.conservativeResize(std::ssize(original), 3);
+  made.positions_.resize(std::ssize(used), 3);
   for (std::size_t v = 0; v < used.size(); ++v) made.positions_.row(static_cast<Index>(v)) = positions.row(used[v]);
   if (original.empty()) {
     return Error(HB_ERROR_MESH_NO_TRIANGLES, {"The mesh has no triangle with three different corners."},
@@ -114,10 +113,10 @@ Result<MeanValueDistance> MeanValueDistance::begin(const ConstPoints& positions,
   made.geodesics_->measure(made.landmarks_[0], made.from_landmark_.data());
   for (Index t = 0; t < made.triangles_.rows(); ++t) {
     if (made.from_landmark_[made.triangles_(t, 0)] < std::numeric_limits<double>::infinity()) continue;
-    return Error(HB_ERROR_MESH_NOT_CONNECTED,
-                 {"Mean value distances need a surface of one connected part: triangle ", original[static_cast<std::size_t>(t)],
-                  " belongs to another than the rest."},
-                 {"Join the parts, or use another distance."}, HB_CULPRIT_TRIANGLE, original[static_cast<std::size_t>(t)]);
+    return Error(
+        HB_ERROR_MESH_NOT_CONNECTED,
+        {"Mean value distances need a surface of one connected part: triangle ", original[t], " belongs to another than the rest."},
+        {"Join the parts, or use another distance."}, HB_CULPRIT_TRIANGLE, original[t]);
   }
   made.squared_.resize(made.positions_.rows(), std::min(most_landmarks, made.positions_.rows()));
   return made;
@@ -143,7 +142,7 @@ double MeanValueDistance::step() {
 
 /** Farthest points make the landmarks. */
 void MeanValueDistance::add_landmark() {
-  const Index column = static_cast<Index>(landmarks_.size()) - 1;
+  const Index column = std::ssize(landmarks_) - 1;
   geodesics_->measure(landmarks_.back(), from_landmark_.data());
   std::size_t farthest = 0;
   for (std::size_t v = 0; v < coverage_.size(); ++v) {
@@ -170,8 +169,7 @@ void MeanValueDistance::embed() {
   Vector mean = Vector::Zero(count);
   for (Index i = 0; i < count; ++i) {
     for (Index j = 0; j < count; ++j) {
-      b(i, j) = 0.5 * (double{squared_(landmarks_[static_cast<std::size_t>(i)], j)} +
-                       double{squared_(landmarks_[static_cast<std::size_t>(j)], i)});
+      b(i, j) = 0.5 * (double{squared_(landmarks_[i], j)} + double{squared_(landmarks_[j], i)});
       mean[j] += b(i, j) / static_cast<double>(count);
     }
   }
@@ -181,7 +179,7 @@ void MeanValueDistance::embed() {
     for (Index j = 0; j < count; ++j) b(i, j) = -0.5 * (b(i, j) - mean[i] - mean[j] + all);
   }
   symmetric_eigen(b, vectors);
-  const Numbers order = sorted_indices(static_cast<std::size_t>(count), [&](std::uint32_t i, std::uint32_t j) {
+  const Indices order = sorted_indices(count, [&](std::uint32_t i, std::uint32_t j) {
     return std::abs(b(i, i)) > std::abs(b(j, j)) || (std::abs(b(i, i)) == std::abs(b(j, j)) && i < j);
   });
   Index m = 0;
@@ -190,26 +188,25 @@ void MeanValueDistance::embed() {
     ++m;
 
   MatrixF values(squared_.rows(), m);
-  std::vector<float> axes(static_cast<std::size_t>(m * count));
+  std::vector<float> axes(m * count);
   for (Index k = 0; k < m; ++k) {
     const double eigenvalue = b(order[k], order[k]), scale = 0.5 / std::sqrt(std::abs(eigenvalue)) * (eigenvalue > 0 ? 1 : -1);
     signs_.push_back(eigenvalue > 0 ? 1.0F : -1.0F);
-    for (Index i = 0; i < count; ++i)
-      axes[static_cast<std::size_t>(k * count + i)] = static_cast<float>(scale * vectors(i, order[k]));
+    for (Index i = 0; i < count; ++i) axes[k * count + i] = static_cast<float>(scale * vectors(i, order[k]));
   }
-  std::vector<float> away(static_cast<std::size_t>(count));
+  std::vector<float> away(count);
   for (Index v = 0; v < values.rows(); ++v) {
-    for (Index i = 0; i < count; ++i) away[static_cast<std::size_t>(i)] = static_cast<float>(mean[i] - squared_(v, i));
+    for (Index i = 0; i < count; ++i) away[i] = static_cast<float>(mean[i] - squared_(v, i));
     for (Index k = 0; k < m; ++k) {
       double sum = 0;
-      for (Index i = 0; i < count; ++i) sum += axes[static_cast<std::size_t>(k * count + i)] * away[static_cast<std::size_t>(i)];
+      for (Index i = 0; i < count; ++i) sum += axes[k * count + i] * away[i];
       values(v, k) = static_cast<float>(sum);
     }
   }
   squared_.resize(0, 0);
   field_ = std::make_unique<MeanValueField>(positions_, triangles_, values);
   coordinates_.resize(domain_->size(), m);
-  at_source_.resize(static_cast<std::size_t>(m));
+  at_source_.resize(m);
   phase_ = Phase::voxels;
 }
 
@@ -227,8 +224,8 @@ void MeanValueDistance::measure(const Vector3& source, double* distances) {
     const float* const at = coordinates_.data() + v * m;
     float sum = 0;
     for (Index k = 0; k < m; ++k) {
-      const float difference = at[k] - at_source_[static_cast<std::size_t>(k)];
-      sum += signs_[static_cast<std::size_t>(k)] * difference * difference;
+      const float difference = at[k] - at_source_[k];
+      sum += signs_[k] * difference * difference;
     }
     distances[v] = std::sqrt(std::max(static_cast<double>(sum), (domain_->center(v) - source).squaredNorm()));
   }

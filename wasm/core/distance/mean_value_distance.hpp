@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "core/distance/voxel_domain.hpp"
+#include "core/errors/result.hpp"
 #include "core/mesh/mean_value_coordinates.hpp"
 #include "core/mesh/surface_geodesics.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -69,7 +69,7 @@ MergedLimbs find_merged_limbs(const VoxelDomain& domain, const std::vector<Cross
     return false;
   };
   const std::size_t stride = (links.size() + most_links - 1) / most_links;
-  Numbers matter;
+  Indices matter;
   for (std::size_t k = 0; k < links.size(); k += stride) {
     if (!near(static_cast<std::int32_t>(k), links[k].from, links[k].to)) matter.push_back(static_cast<std::uint32_t>(k));
   }
@@ -83,7 +83,7 @@ MergedLimbs find_merged_limbs(const VoxelDomain& domain, const std::vector<Cross
     next[k] = at, at = static_cast<std::int32_t>(k);
   }
   std::vector<std::uint8_t> taken(matter.size());
-  Numbers cluster, largest;
+  Indices cluster, largest;
   const int reach = stride > 1 ? 3 : 1;
   for (std::uint32_t seed = 0; seed < matter.size(); ++seed) {
     if (taken[seed]) continue;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -108,7 +108,7 @@ void SurfaceCrossings::finish() {
     const std::size_t count = starts_[l + 1] - starts_[l];
     if (count < 2) continue;
     line.assign(first, first + count);
-    const Numbers order = sorted_indices(
+    const Indices order = sorted_indices(
         count, [&](std::uint32_t a, std::uint32_t b) { return line[a].at < line[b].at || (line[a].at == line[b].at && a < b); });
     for (std::size_t k = 0; k < count; ++k) first[k] = line[order[k]];
   }

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -19,7 +19,7 @@ constexpr int near_shells = 6;  // of the search for the nearest voxel, before i
 /** Disjoint sets with path halving; the root is the lowest member. */
 class Sets {
  public:
-  explicit Sets(std::int32_t count) : parent_(static_cast<std::size_t>(count)) {
+  explicit Sets(std::int32_t count) : parent_(count) {
     for (std::int32_t i = 0; i < count; ++i) parent_[i] = i;
   }
   std::int32_t root(std::int32_t i) {
@@ -103,7 +103,7 @@ Result<Grid> make_grid(const Vector3& low, const Vector3& high, int resolution) 
 }
 
 VoxelDomain::VoxelDomain(const Grid& grid, std::vector<std::uint32_t> voxels)
-    : grid_(grid), voxels_(std::move(voxels)), numbers_(static_cast<std::size_t>(grid.size()), -1) {
+    : grid_(grid), voxels_(std::move(voxels)), numbers_(grid.size(), -1) {
   const auto blocks = [&](int axis) { return (grid.dims[axis] + block - 1) / block; };
   std::vector<std::uint8_t> occupied(static_cast<std::size_t>(blocks(0)) * blocks(1) * blocks(2));
   for (std::size_t v = 0; v < voxels_.size(); ++v) {
@@ -118,12 +118,12 @@ VoxelDomain::VoxelDomain(const Grid& grid, std::vector<std::uint32_t> voxels)
 
 std::int32_t VoxelDomain::number(std::int64_t linear_index) const {
   if (linear_index < 0 || linear_index >= static_cast<std::int64_t>(numbers_.size())) return -1;
-  return numbers_[static_cast<std::size_t>(linear_index)];
+  return numbers_[linear_index];
 }
 
 std::int32_t VoxelDomain::number(int i, int j, int k) const {
   if (i < 0 || j < 0 || k < 0 || i >= grid_.dims[0] || j >= grid_.dims[1] || k >= grid_.dims[2]) return -1;
-  return numbers_[static_cast<std::size_t>(grid_.linear(i, j, k))];
+  return numbers_[grid_.linear(i, j, k)];
 }
 
 std::int32_t VoxelDomain::nearest(const Vector3& point) const {
@@ -138,7 +138,7 @@ std::int32_t VoxelDomain::nearest(const Vector3& point) const {
   std::int32_t found = -1;
   double best = std::numeric_limits<double>::infinity();
   const auto visit = [&](int i, int j, int k) {
-    const std::int32_t v = numbers_[static_cast<std::size_t>(grid_.linear(i, j, k))];
+    const std::int32_t v = numbers_[grid_.linear(i, j, k)];
     if (v < 0) return;
     const double distance2 = (Vector3(i, j, k) - p).squaredNorm();
     if (distance2 < best || (distance2 == best && v < found)) best = distance2, found = v;
@@ -190,7 +190,7 @@ std::vector<std::int32_t> VoxelDomain::face_neighbors() const {
 std::vector<std::int32_t> face_components(const VoxelDomain& domain) {
   const auto count = static_cast<std::int32_t>(domain.size());
   const std::vector<std::int32_t> neighbors = domain.face_neighbors();
-  std::vector<std::int32_t> component(static_cast<std::size_t>(count), -1), queue;
+  std::vector<std::int32_t> component(count, -1), queue;
   std::int32_t components = 0;
   for (std::int32_t seed = 0; seed < count; ++seed) {
     if (component[seed] >= 0) continue;
@@ -220,7 +220,7 @@ int bridge_components(const Grid& grid, std::vector<std::uint32_t>& voxels) {
     part = face_components(domain);
     const std::int32_t parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
     if (parts < 2) return 0;
-    site.resize(static_cast<std::size_t>(grid.size()));
+    site.resize(grid.size());
     for (std::size_t c = 0; c < site.size(); ++c) site[c] = domain.number(static_cast<std::int64_t>(c));
   }
 

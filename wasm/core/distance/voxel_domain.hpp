@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/errors/result.hpp"
 #include "core/mesh/triangle_tree.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -39,8 +39,8 @@ class VoxelDomain {
 
   const Grid& grid() const { return grid_; }
   const std::vector<std::uint32_t>& voxels() const { return voxels_; }
-  Index size() const { return static_cast<Index>(voxels_.size()); }
-  Vector3 center(Index voxel) const { return grid_.center(voxels_[static_cast<std::size_t>(voxel)]); }
+  Index size() const { return std::ssize(voxels_); }
+  Vector3 center(Index voxel) const { return grid_.center(voxels_[voxel]); }
 
   /** Compact number of the voxel at linear index, or -1 outside the domain (or outside the grid). */
   std::int32_t number(std::int64_t linear_index) const;

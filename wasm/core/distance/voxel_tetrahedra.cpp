@@ -12,7 +12,6 @@ namespace handlebody {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 constexpr double near = 1e-9;  // of a voxel
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -65,7 +64,7 @@ void for_each_touched(const Grid& grid, const ConstPoints& positions, const Cons
 /** The voxels that are inside or touched. A face that runs between voxels counts for those inside; for both sides where neither is.
  */
 std::vector<char> mark_voxels(const Grid& grid, const ConstPoints& positions, const ConstTriangles& triangles) {
-  std::vector<char> marked(static_cast<std::size_t>(grid.size()), 0);
+  std::vector<char> marked(grid.size(), 0);
   for (Index t = 0; t < triangles.rows(); ++t)
     for_each_touched(grid, positions, triangles, t, near, [&](std::size_t v) { marked[v] = 1; });
   const TriangleTree tree(positions, triangles);
@@ -93,7 +92,7 @@ std::array<std::int32_t, 3> locate(const Grid& grid, const std::vector<char>& ma
   double least = infinite;
   const auto consider = [&](int i, int j, int k) {
     if (i < 0 || j < 0 || k < 0 || i >= grid.dims[0] || j >= grid.dims[1] || k >= grid.dims[2]) return;
-    if (!marked[static_cast<std::size_t>(grid.linear(i, j, k))]) return;
+    if (!marked[grid.linear(i, j, k)]) return;
     const double squared = ((place - Vector3(i, j, k)).cwiseAbs().array() - 0.5).cwiseMax(0).square().sum();
     if (squared < least) least = squared, best = {i, j, k};
   };
@@ -130,13 +129,13 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
 
   // Corners are numbered as they are met; there is one more along each axis than there are voxels.
   const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
-  Numbers number(static_cast<std::size_t>(across[0] * across[1] * across[2]), none);
+  Indices number(across[0] * across[1] * across[2], no_index);
   std::vector<double> places;
-  Numbers indices;
+  Indices indices;
   const auto corner = [&](const std::array<std::int32_t, 3>& cell, int c) {
     const std::array<std::int64_t, 3> at{cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2)};
-    std::uint32_t& own = number[static_cast<std::size_t>(at[0] + across[0] * (at[1] + across[1] * at[2]))];
-    if (own == none) {
+    std::uint32_t& own = number[at[0] + across[0] * (at[1] + across[1] * at[2])];
+    if (own == no_index) {
       own = static_cast<std::uint32_t>(places.size() / 3);
       for (std::size_t axis = 0; axis < 3; ++axis)
         places.push_back(grid.origin[static_cast<Index>(axis)] + (static_cast<double>(at[axis]) - 0.5) * grid.spacing);
@@ -157,7 +156,7 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
   VoxelTetrahedra result;
   result.mesh.positions = Eigen::Map<const Matrix>(places.data(), static_cast<Index>(places.size() / 3), 3);
   result.mesh.simplices = Eigen::Map<const Simplices>(indices.data(), static_cast<Index>(indices.size() / 4), 4);
-  result.corners.resize(static_cast<std::size_t>(positions.rows()));
+  result.corners.resize(positions.rows());
   result.coordinates.resize(result.corners.size());
   for (std::size_t p = 0; p < result.corners.size(); ++p) {
     const Vector3 place = (positions.row(static_cast<Index>(p)).transpose() - grid.origin) / grid.spacing;
@@ -165,12 +164,11 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
     const std::array<std::int32_t, 3> cell = locate(grid, marked, place, part);
     // In the tetrahedron whose axes come in the order of the parts, coordinates are their differences.
     std::array<int, 3> order{0, 1, 2};
-    if (part[static_cast<std::size_t>(order[0])] < part[static_cast<std::size_t>(order[1])]) std::swap(order[0], order[1]);
-    if (part[static_cast<std::size_t>(order[1])] < part[static_cast<std::size_t>(order[2])]) std::swap(order[1], order[2]);
-    if (part[static_cast<std::size_t>(order[0])] < part[static_cast<std::size_t>(order[1])]) std::swap(order[0], order[1]);
+    if (part[order[0]] < part[order[1]]) std::swap(order[0], order[1]);
+    if (part[order[1]] < part[order[2]]) std::swap(order[1], order[2]);
+    if (part[order[0]] < part[order[1]]) std::swap(order[0], order[1]);
     const int second = 1 << order[0], third = second | 1 << order[1];
-    const double a = part[static_cast<std::size_t>(order[0])], b = part[static_cast<std::size_t>(order[1])],
-                 c = part[static_cast<std::size_t>(order[2])];
+    const double a = part[order[0]], b = part[order[1]], c = part[order[2]];
     result.corners[p] = {corner(cell, 0), corner(cell, second), corner(cell, third), corner(cell, 7)};
     result.coordinates[p] = {1 - a, a - b, b - c, c};
   }

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "core/errors/result.hpp"
 #include "core/mesh/simplex_mesh.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 

@@ -28,7 +28,7 @@ void cross(const Side& a, const Side& b, const Side& from, const Side& to, doubl
 
 }  // namespace
 
-ConvexCell::ConvexCell(Index capacity) : sides_(static_cast<std::size_t>(capacity)), spare_(sides_.size()) {}
+ConvexCell::ConvexCell(Index capacity) : sides_(capacity), spare_(sides_.size()) {}
 
 void ConvexCell::start(double half) {
   count_ = 4;
@@ -46,7 +46,7 @@ void ConvexCell::copy(const ConvexCell& other) {
 void ConvexCell::cut(double normal_x, double normal_y, double offset, Index owner, Index meeting) {
   Index farthest = 0;
   for (Index k = 0; k < count_; ++k) {
-    Side& s = sides_[static_cast<std::size_t>(k)];
+    Side& s = sides_[k];
     const double x = s.vertex[0], y = s.vertex[1];
     s.excess = normal_x * x + normal_y * y - offset - rounding * (std::abs(x) + std::abs(y) + std::abs(offset));
     const Index a = s.owner, b = after(k).owner;
@@ -70,10 +70,10 @@ void ConvexCell::cut(double normal_x, double normal_y, double offset, Index owne
   const Index left = count_ - beyond + 1;
   for (Index k = 0, from = last; k < left; ++k) {
     from = from + 1 < count_ ? from + 1 : 0;
-    spare_[static_cast<std::size_t>(k)] = side(from);
+    spare_[k] = side(from);
   }
-  cross(side(first), line, before(first), side(first), spare_[static_cast<std::size_t>(left - 1)].vertex);
-  spare_[static_cast<std::size_t>(left)] = line;
+  cross(side(first), line, before(first), side(first), spare_[left - 1].vertex);
+  spare_[left] = line;
   sides_.swap(spare_);
   count_ = left + 1;
 }

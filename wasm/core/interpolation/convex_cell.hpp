@@ -38,7 +38,7 @@ class ConvexCell {
   void cut(double normal_x, double normal_y, double offset, Index owner, Index meeting = box);
 
   Index size() const { return count_; }  // 0 where nothing is left
-  const Side& side(Index k) const { return sides_[static_cast<std::size_t>(k)]; }
+  const Side& side(Index k) const { return sides_[k]; }
   const Side& after(Index k) const { return side(k + 1 < count_ ? k + 1 : 0); }
   const Side& before(Index k) const { return side(k > 0 ? k - 1 : count_ - 1); }
 

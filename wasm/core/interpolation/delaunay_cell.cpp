@@ -7,7 +7,6 @@
 namespace handlebody {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 constexpr double outside = 1e-12;      // distance beyond a facet
 constexpr double rounding = 1e-15;     // of a power
 constexpr double slack = 1e-2;         // part of a tie that a pivot may spend on a larger divisor
@@ -21,15 +20,15 @@ DelaunayCell::DelaunayCell(const Matrix& points)
     : points_(points),
       place_(Vector::Zero(points.cols())),
       costs_(points.rows()),
-      basis_(static_cast<std::size_t>(points.cols() + 1), none),
+      basis_(points.cols() + 1, no_index),
       former_(basis_),
-      starts_(static_cast<std::size_t>(points.rows()) * basis_.size(), none),
+      starts_(static_cast<std::size_t>(points.rows()) * basis_.size(), no_index),
       inverse_(points.cols() + 1, points.cols() + 1),
       column_(points.cols() + 1),
       plane_(points.cols() + 1),
       powers_(points.rows()),
       rates_(points.rows()) {
-  members_.reserve(static_cast<std::size_t>(points.rows()));
+  members_.reserve(points.rows());
   // The first simplex: unit vectors, free and without cost, leave one after the other, and the plane stays below all points.
   measure(place_.data());
   inverse_.setIdentity();
@@ -71,7 +70,7 @@ double DelaunayCell::steepness(Index row) const {
 /** Puts a point into the basis: one step of Gauss and Jordan makes column_, which holds its barycentric coordinates, a unit vector.
  */
 void DelaunayCell::pivot(Index row, std::uint32_t point) {
-  basis_[static_cast<std::size_t>(row)] = point;
+  basis_[row] = point;
   age_ = std::abs(column_[row]) < poor ? pivots_a_factor : age_ + 1;
   inverse_.row(row) /= column_[row];
   for (Index k = 0; k < inverse_.rows(); ++k)
@@ -81,13 +80,13 @@ void DelaunayCell::pivot(Index row, std::uint32_t point) {
 /** The inverse of the basis, which may come out in another order. */
 void DelaunayCell::factor() {
   former_ = basis_;
-  std::fill(basis_.begin(), basis_.end(), none);
+  std::fill(basis_.begin(), basis_.end(), no_index);
   inverse_.setIdentity();
   for (const std::uint32_t point : former_) {
     Index best = -1;
     for (Index k = 0; k < inverse_.rows(); ++k) {
       column_[k] = affine(&inverse_(k, 0), point);
-      if (basis_[static_cast<std::size_t>(k)] == none && (best < 0 || std::abs(column_[k]) > std::abs(column_[best]))) best = k;
+      if (basis_[k] == no_index && (best < 0 || std::abs(column_[k]) > std::abs(column_[best]))) best = k;
     }
     pivot(best, point);
   }
@@ -98,8 +97,8 @@ void DelaunayCell::factor() {
 void DelaunayCell::raise_plane() {
   plane_.setZero();
   for (Index k = 0; k < inverse_.rows(); ++k) {
-    const std::uint32_t point = basis_[static_cast<std::size_t>(k)];
-    if (point != none) plane_ += costs_[point] * inverse_.row(k).transpose();
+    const std::uint32_t point = basis_[k];
+    if (point != no_index) plane_ += costs_[point] * inverse_.row(k).transpose();
   }
   double squared_radius = plane_[0];  // the center is half the slope away from x
   for (Index k = 1; k < plane_.size(); ++k) squared_radius += plane_[k] * plane_[k] / 4;
@@ -118,7 +117,7 @@ bool DelaunayCell::enter(Index row, double direction) {
     if (std::abs(rates_[i]) > std::abs(farthest)) farthest = rates_[i];
   }
   for (const std::uint32_t point : basis_)
-    if (point != none) rates_[point] = 0;
+    if (point != no_index) rates_[point] = 0;
   if (direction == 0) direction = farthest < 0 ? -1 : 1;
 
   // Harris's ratio test: among those met first, or within the slack of a tie, the one with the largest divisor.
@@ -154,9 +153,7 @@ bool DelaunayCell::walk() {
     Index leaving = -1;
     for (Index k = 0; k < inverse_.rows(); ++k) {
       if (!(inverse_(k, 0) < -outside * steepness(k))) continue;
-      if (leaving < 0 || (bland() ? basis_[static_cast<std::size_t>(k)] < basis_[static_cast<std::size_t>(leaving)]
-                                  : inverse_(k, 0) < inverse_(leaving, 0)))
-        leaving = k;
+      if (leaving < 0 || (bland() ? basis_[k] < basis_[leaving] : inverse_(k, 0) < inverse_(leaving, 0))) leaving = k;
     }
     const bool crossed = leaving >= 0 && enter(leaving, -1);
     if (!crossed && age_ == 0) return leaving < 0;
@@ -172,7 +169,7 @@ bool DelaunayCell::find(const double* place) {
     return true;
   }
   std::uint32_t* start = &starts_[static_cast<std::size_t>(nearest) * basis_.size()];
-  if (*start == none) {
+  if (*start == no_index) {
     measure(points_.data() + nearest * points_.cols());
     basis_ = root_;
     walk();  // wherever it ends is an empty simplex

@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -33,7 +33,7 @@ class DelaunayCell {
   bool find(const double* place);
 
   /** The points of the cell found last, ascending. At a point, that point alone. */
-  const Numbers& members() const { return members_; }
+  const Indices& members() const { return members_; }
 
  private:
   Index measure(const double* place);
@@ -49,11 +49,11 @@ class DelaunayCell {
   Matrix points_;
   Vector place_;     // x
   Vector costs_;     // n: ‖pᵢ − x‖²
-  Numbers basis_;    // d+1
-  Numbers root_;     // d+1: of the simplex that all walks come from
-  Numbers former_;   // scratch of factor()
-  Numbers starts_;   // n×(d+1): bases at the points, where their first is not `none`
-  Numbers members_;  // room for n
+  Indices basis_;    // d+1
+  Indices root_;     // d+1: of the simplex that all walks come from
+  Indices former_;   // scratch of factor()
+  Indices starts_;   // n×(d+1): bases at the points, where their first is not `no_index`
+  Indices members_;  // room for n
   Matrix inverse_;   // (d+1)×(d+1): row k is barycentric coordinate k, (1, p − x) ↦ λₖ(p); its first number is λₖ(x)
   Vector column_;    // d+1: barycentric coordinates of the point that enters
   Vector plane_;     // d+1: the lifted plane through the basis, ‖p − x‖² ≥ plane · (1, p − x)

@@ -133,7 +133,7 @@ Result<DiscreteGreen> DiscreteGreen::create(Index size, int order, GridBoundary 
                  {count, count == 1 ? " sample does" : " samples do", " not determine the part of the curve that D cannot see, of ",
                   nullity, nullity == 1 ? " dimension." : " dimensions."},
                  {"Give at least ", std::max<Index>(nullity, 1), nullity > 1 ? " samples." : "."});
-  std::vector<Index> given(static_cast<std::size_t>(size), -1);
+  std::vector<Index> given(size, -1);
   for (Index k = 0; k < count; ++k) {
     if (static_cast<Index>(samples[k]) >= size)
       return Error(HB_ERROR_INVALID_OPTION, {"Sample ", k, " is at ", samples[k], ", outside the grid."},
@@ -170,17 +170,17 @@ Matrix DiscreteGreen::squared() const {
 }
 
 void DiscreteGreen::solve_grid(double* f) const {
-  std::vector<Index> number(static_cast<std::size_t>(size()), 0), place;
+  std::vector<Index> number(size(), 0), place;
   for (std::size_t k = 0; k < samples_.size(); ++k) {
-    number[static_cast<std::size_t>(samples_[k])] = -1;
+    number[samples_[k]] = -1;
     f[samples_[k]] = values_[static_cast<Index>(k)];
   }
   for (Index i = 0; i < size(); ++i) {
-    if (number[static_cast<std::size_t>(i)] < 0) continue;
-    number[static_cast<std::size_t>(i)] = static_cast<Index>(place.size());
+    if (number[i] < 0) continue;
+    number[i] = std::ssize(place);
     place.push_back(i);
   }
-  const auto unknowns = static_cast<Index>(place.size());
+  const auto unknowns = std::ssize(place);
 
   // R and its right-hand side, in the last column, row by row of D: each is rotated into the rows before it, or becomes one.
   Matrix r = Matrix::Zero(unknowns, unknowns + 1);
@@ -190,7 +190,7 @@ void DiscreteGreen::solve_grid(double* f) const {
     row.setZero();
     Index first = unknowns, last = 0;
     for (Index i = 0; i < size(); ++i) {
-      const Index j = number[static_cast<std::size_t>(i)];
+      const Index j = number[i];
       const double factor = difference_(equation, i);
       if (factor == 0) continue;
       if (j < 0) {
@@ -203,7 +203,7 @@ void DiscreteGreen::solve_grid(double* f) const {
     }
     for (Index c = first; c < last; ++c) {
       if (row[c] == 0) continue;
-      Index& reach = end[static_cast<std::size_t>(c)];
+      Index& reach = end[c];
       if (reach == 0) {
         r.row(c) = row.transpose();
         reach = last;
@@ -222,8 +222,8 @@ void DiscreteGreen::solve_grid(double* f) const {
   }
   for (Index c = unknowns; c-- > 0;) {
     double rest = r(c, unknowns);
-    for (Index j = c + 1; j < end[static_cast<std::size_t>(c)]; ++j) rest -= r(c, j) * f[place[static_cast<std::size_t>(j)]];
-    f[place[static_cast<std::size_t>(c)]] = rest / r(c, c);
+    for (Index j = c + 1; j < end[c]; ++j) rest -= r(c, j) * f[place[j]];
+    f[place[c]] = rest / r(c, c);
   }
 }
 
@@ -233,7 +233,7 @@ void DiscreteGreen::solve_radial(double* f, double* weights) const {
   double largest = 0;
   for (Index i = 0; i < size(); ++i) largest = std::max(largest, green_(i, i));
   const double scale = std::sqrt(static_cast<double>(size()));
-  const auto place = [&](Index k) { return samples_[static_cast<std::size_t>(k)]; };
+  const auto place = [&](Index k) { return samples_[k]; };
   MatrixXd system = MatrixXd::Zero(count + columns, count + columns);
   Vector solution = Vector::Zero(count + columns);
   for (Index k = 0; k < count; ++k) {

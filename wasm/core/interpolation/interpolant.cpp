@@ -37,7 +37,7 @@ void Interpolant::gradient(const double* queries, Index count, double* out) {
 void Interpolant::weights(const double* query, double* out) {
   weigh(query, w_.data(), nullptr);
   std::fill(out, out + size(), 0.0);
-  for (Index k = 0; k < w_.size(); ++k) out[data_.kept[static_cast<std::size_t>(k)]] = w_[k];
+  for (Index k = 0; k < w_.size(); ++k) out[data_.kept[k]] = w_[k];
 }
 
 }  // namespace handlebody

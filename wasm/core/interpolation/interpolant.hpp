@@ -2,8 +2,8 @@
 // each point, so that the value there is f(x) = Σₖ wₖ(x) fₖ. All of them are linear in the values once they are made.
 #pragma once
 
+#include "core/errors/result.hpp"
 #include "core/interpolation/scattered_data.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -16,12 +16,7 @@ constexpr Index steps_per_point = 20;
 }  // namespace
 
 LeastNormWeights::LeastNormWeights(Index most, Index dimension)
-    : points_(most, dimension),
-      basis_(most, dimension + 1),
-      values_(most),
-      slopes_(most),
-      pivot_(dimension + 1),
-      kept_(static_cast<std::size_t>(most)) {}
+    : points_(most, dimension), basis_(most, dimension + 1), values_(most), slopes_(most), pivot_(dimension + 1), kept_(most) {}
 
 /** Gram and Schmidt over the points that are kept: first 1, then the coordinates, the largest remainder first; what depends on
  * those before is left out. Then v = Σ βⱼ basisⱼ, and Σ v = 1 and Σ v q = 0 over the points that are kept say what its parts β are.
@@ -31,7 +26,7 @@ void LeastNormWeights::orthonormalize() {
   const auto product = [&](Index a, Index b) {
     double sum = 0;
     for (Index i = 0; i < count_; ++i)
-      if (kept_[static_cast<std::size_t>(i)]) sum += basis_(i, a) * basis_(i, b);
+      if (kept_[i]) sum += basis_(i, a) * basis_(i, b);
     return sum;
   };
   Vector& parts = pivot_;
@@ -103,7 +98,7 @@ bool LeastNormWeights::let_go(Index leaving, Index& steps_left) {
     double step = spanned ? -(values_[leaving] + multiplier) / rest : std::numeric_limits<double>::infinity();
     Index returning = -1;
     for (Index i = 0; i < count_; ++i) {
-      if (kept_[static_cast<std::size_t>(i)] || !(slopes_[i] < 0) || !(values_[i] / slopes_[i] < step)) continue;
+      if (kept_[i] || !(slopes_[i] < 0) || !(values_[i] / slopes_[i] < step)) continue;
       step = values_[i] / slopes_[i];
       returning = i;
     }
@@ -111,7 +106,7 @@ bool LeastNormWeights::let_go(Index leaving, Index& steps_left) {
     for (Index i = 0; i < count_; ++i) values_[i] -= step * slopes_[i];
     multiplier += step;
     const Index changed = returning < 0 ? leaving : returning;
-    kept_[static_cast<std::size_t>(changed)] = returning >= 0;
+    kept_[changed] = returning >= 0;
     reweigh(changed, returning < 0 ? -1 : 1);
     if (returning < 0) return true;
   }
@@ -128,7 +123,7 @@ bool LeastNormWeights::solve(Index count) {
     Index lowest = -1;
     double value = -negative;
     for (Index i = 0; i < count; ++i) {
-      if (!kept_[static_cast<std::size_t>(i)] || !(values_[i] < value)) continue;
+      if (!kept_[i] || !(values_[i] < value)) continue;
       value = values_[i];
       lowest = i;
     }
@@ -138,14 +133,14 @@ bool LeastNormWeights::solve(Index count) {
       continue;
     }
     // Rid the values of what the updates have piled up. A place beyond a face, if only by rounding, is moved onto it.
-    if (lowest >= 0) kept_[static_cast<std::size_t>(lowest)] = 0;
+    if (lowest >= 0) kept_[lowest] = 0;
     orthonormalize();
     exact = true;
     --steps_left;
   }
 
   double sum = 0, off = 0;
-  for (Index i = 0; i < count; ++i) sum += values_[i] = kept_[static_cast<std::size_t>(i)] ? std::max(values_[i], 0.0) : 0;
+  for (Index i = 0; i < count; ++i) sum += values_[i] = kept_[i] ? std::max(values_[i], 0.0) : 0;
   for (Index i = 0; i < count; ++i) values_[i] /= sum;
   for (Index axis = 0; axis < d; ++axis) {
     double mean = 0;

@@ -80,8 +80,8 @@ MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSqua
     if (options.weight == MovingWeight::wendland) width_ *= 2;
   }
   distances_.resize(n);
-  rows_.resize(static_cast<std::size_t>(n));
-  nearest_.resize(static_cast<std::size_t>(n));
+  rows_.resize(n);
+  nearest_.resize(n);
   roots_.resize(n);
   solution_.resize(n);
   offset_.resize(d);
@@ -213,7 +213,7 @@ void MovingLeastSquares::widen() {
   };
   std::iota(nearest_.begin(), nearest_.end(), 0u);
   std::uint32_t* const last = nearest_.data() + wanted - 1;
-  split(nearest_.data(), last, nearest_.data() + nearest_.size(), nearer);
+  nth_element(nearest_.data(), last, nearest_.data() + nearest_.size(), nearer);
   farthest_ = *last;
   reach_ = distances_[farthest_] / margin;
 }

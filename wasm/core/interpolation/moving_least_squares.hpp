@@ -77,13 +77,13 @@ class MovingLeastSquares final : public Interpolant {
   double second_ = 1;                 // distance to the second nearest
   double reach_ = 1;                  // h here
   Index farthest_ = -1;               // the point that h follows, where it widens
-  Numbers rows_;                      // the point of each row
+  Indices rows_;                      // the point of each row
   Vector roots_;                      // √w of each point, then of each row
   Vector offset_, right_, solution_;  // scratch: d, q, n
   Vector difference_, monomials_;     // of set_monomials()
   Vector direction_;                  // of set_direction()
   Matrix gradients_;                  // of set_slopes(), q×d
-  Numbers nearest_;                   // of widen()
+  Indices nearest_;                   // of widen()
 };
 
 }  // namespace handlebody

@@ -31,7 +31,7 @@ NaturalNeighbor::NaturalNeighbor(ScatteredData data, OutsideHull outside)
       hull_(data_.points),
       offsets_(data_.points.rows(), 2),
       squares_(data_.points.rows()),
-      heap_(static_cast<std::size_t>(data_.points.rows())),
+      heap_(data_.points.rows()),
       cell_(data_.points.rows() + 8),
       part_(2 * data_.points.rows() + 8) {
   double rounding = 0;
@@ -102,7 +102,7 @@ void NaturalNeighbor::measure(const double* x) {
 NaturalNeighbor::Place NaturalNeighbor::surround(const double* x) {
   measure(x);
   const Index n = squares_.size();
-  for (Index i = 0; i < n; ++i) heap_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(i);
+  for (Index i = 0; i < n; ++i) heap_[i] = static_cast<std::uint32_t>(i);
   for (Index at = n / 2; at-- > 0;) sift_down(at, n);
   own_ = heap_[0];
   if (squares_[own_] < at_point) return Place::at_point;
@@ -200,7 +200,7 @@ void NaturalNeighbor::sift_down(Index at, Index size) {
 /** Takes the nearest of the first `size` points of the heap. */
 Index NaturalNeighbor::pop(Index size) {
   const Index nearest = heap_[0];
-  heap_[0] = heap_[static_cast<std::size_t>(size - 1)];
+  heap_[0] = heap_[size - 1];
   sift_down(0, size - 1);
   return nearest;
 }

@@ -31,7 +31,7 @@
 #include "core/interpolation/convex_cell.hpp"
 #include "core/interpolation/interpolant.hpp"
 #include "core/interpolation/nearest_in_hull.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 
@@ -66,7 +66,7 @@ class NaturalNeighbor final : public Interpolant {
   // Scratch, around x and in diagonals.
   Matrix offsets_;          // n×2: pᵢ − x
   Vector squares_;          // n: |pᵢ − x|²
-  Numbers heap_;            // points, the nearest first
+  Indices heap_;            // points, the nearest first
   Index own_ = 0;           // the point that x is at
   ConvexCell cell_, part_;  // of x; of that, what is nearest to one neighbor
 };

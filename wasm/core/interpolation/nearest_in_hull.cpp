@@ -38,7 +38,7 @@ NearestInHull::NearestInHull(const Matrix& points) : points_(points) {
   for (Index axis = 0; axis < d; ++axis) largest = std::max({largest, std::abs(low[axis]), std::abs(high[axis])});
   spread_ = 4 * std::numeric_limits<double>::epsilon() * (largest / diagonal_);
 
-  corral_.resize(static_cast<std::size_t>(d + 1));
+  corral_.resize(d + 1);
   for (Vector* scratch : {&weights_, &wanted_}) scratch->setZero(d + 1);
   for (Vector* scratch : {&query_, &point_, &across_}) scratch->setZero(d);
   edges_.setZero(d + 1, d);
@@ -103,7 +103,7 @@ void NearestInHull::minimize_in_span() {
 void NearestInHull::leave(Index k) {
   --count_;
   for (Index j = k; j < count_; ++j) {
-    corral_[static_cast<std::size_t>(j)] = corral_[static_cast<std::size_t>(j + 1)];
+    corral_[j] = corral_[j + 1];
     weights_[j] = weights_[j + 1];
   }
   orthonormalize(k);
@@ -174,7 +174,7 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
 
   if (weights) {
     std::fill(weights, weights + n, 0.0);
-    for (Index k = 0; k < count_; ++k) weights[corral_[static_cast<std::size_t>(k)]] = weights_[k];
+    for (Index k = 0; k < count_; ++k) weights[corral_[k]] = weights_[k];
   }
   const bool inside = distance <= tolerance + spread_;
   for (Index axis = 0; axis < d; ++axis) nearest[axis] = inside ? query[axis] : center_[axis] + diagonal_ * point_[axis];

@@ -37,7 +37,7 @@ class NearestInHull {
   double operator()(const double* query, double* nearest, double* weights);
 
  private:
-  double* corner(Index k) { return points_.data() + corral_[static_cast<std::size_t>(k)] * points_.cols(); }
+  double* corner(Index k) { return points_.data() + corral_[k] * points_.cols(); }
   void combine();
   void leave(Index k);
   bool orthonormalize(Index from);

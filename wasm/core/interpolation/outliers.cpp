@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -20,14 +20,14 @@ Vector score(Rbf& rbf, OutlierMethod method) {
   for (Index i = 0; i < n; ++i) {
     if (method == OutlierMethod::leave_one_out) {
       const double inverse = sign * basis.amplitude_of_scale() * rbf.cardinal()(i, i);  // in the caller's units, as c
-      const double c = coefficients.row(data.kept[static_cast<std::size_t>(i)]).norm();
+      const double c = coefficients.row(data.kept[i]).norm();
       squares[i] = c * c / inverse;
     } else if (method == OutlierMethod::row_sum) {
       basis.values(&data.points(i, 0), row.data());
       for (Index j = 0; j < m; ++j) {
         double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += (k == i ? 0.5 : 1) * row[k] * coefficients(data.kept[static_cast<std::size_t>(k)], j);
-        squares[i] += sign * coefficients(data.kept[static_cast<std::size_t>(i)], j) * sum / basis.amplitude_of_scale();
+        for (Index k = 0; k < n; ++k) sum += (k == i ? 0.5 : 1) * row[k] * coefficients(data.kept[k], j);
+        squares[i] += sign * coefficients(data.kept[i], j) * sum / basis.amplitude_of_scale();
       }
     } else {
       rbf.evaluate(&data.points(i, 0), 1, fitted.data());
@@ -40,13 +40,13 @@ Vector score(Rbf& rbf, OutlierMethod method) {
 
 double median(const Vector& numbers) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return numbers[a] != numbers[b] ? numbers[a] < numbers[b] : a < b; };
-  const Numbers order = sorted_indices(static_cast<std::size_t>(numbers.size()), before);
+  const Indices order = sorted_indices(numbers.size(), before);
   const std::size_t half = order.size() / 2;
   return order.size() % 2 ? numbers[order[half]] : (numbers[order[half - 1]] + numbers[order[half]]) / 2;
 }
 
 Result<Rbf> fit(const ScatteredData& data, const std::vector<std::uint32_t>& in, RbfOptions& options) {
-  Matrix points(static_cast<Index>(in.size()), data.points.cols()), values(points.rows(), data.values.cols());
+  Matrix points(std::ssize(in), data.points.cols()), values(points.rows(), data.values.cols());
   for (std::size_t k = 0; k < in.size(); ++k) {
     points.row(static_cast<Index>(k)) = data.points.row(in[k]);
     values.row(static_cast<Index>(k)) = data.values.row(in[k]);
@@ -100,14 +100,14 @@ Result<OutlierReport> find_outliers(const Eigen::Ref<const Matrix>& points, cons
     const Vector scores = score(*rbf, options.method);
     if (first)
       for (std::size_t k = 0; k < in.size(); ++k) report.scores[data->kept[k]] = scores[static_cast<Index>(k)];
-    if (in.size() < 4 || static_cast<Index>(report.outliers.size()) >= options.most) break;
+    if (in.size() < 4 || std::ssize(report.outliers) >= options.most) break;
     Index highest = 0;
     scores.maxCoeff(&highest);
     const double middle = median(scores);
     const double deviation = std::max(1.4826 * median((scores.array() - middle).abs()), 1e-9 * spread);
     const double height = (scores[highest] - middle) / deviation;
     if (!(height > options.threshold)) break;
-    report.outliers.push_back(data->kept[in[static_cast<std::size_t>(highest)]]);
+    report.outliers.push_back(data->kept[in[highest]]);
     report.outlier_scores.push_back(height);
     in.erase(in.begin() + highest);
   }

@@ -9,7 +9,7 @@
 namespace handlebody {
 
 /** How a point's score is reckoned, from the coefficients c of the interpolant of the points still in. All are lengths in units of
- * the values or of the function norm √(cᵀRc), summed over the outputs as squares. Numbers are part of the C interface. */
+ * the values or of the function norm √(cᵀRc), summed over the outputs as squares. Indices are part of the C interface. */
 enum class OutlierMethod : unsigned {
   row_sum = 0,  // √ of the point's part of cᵀRc: its row, with half the diagonal (course §5.3); negative where it takes from it
   leave_one_out = 1,  // √ of what cᵀRc loses when the point is left out, cᵢ²/(A⁻¹)ᵢᵢ: exact, without refitting

@@ -2,7 +2,7 @@
 // sums of monomials, in this order: 1; x₁ … x_d; x₁x₁, x₁x₂ … x₁x_d, x₂x₂ … x_dx_d (xᵢxⱼ for i ≤ j).
 #pragma once
 
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -11,8 +11,8 @@
 // amplitude_of_scale(), and r² ln r also by a multiple of r², which the side conditions of its tail turn into a polynomial.
 #pragma once
 
+#include "core/errors/result.hpp"
 #include "core/kernels/kernel.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -171,8 +171,7 @@ Matrix Rbf::kernel_coefficients() const {
   const bool own = options_.centers.rows() != 0;
   Matrix result = Matrix::Zero(own ? basis_.centers() : size(), outputs());
   for (Index i = 0; i < basis_.centers(); ++i)
-    for (Index j = 0; j < outputs(); ++j)
-      result(own ? i : data_.kept[static_cast<std::size_t>(i)], j) = basis_.amplitude_of_scale() * coefficients_(j, i);
+    for (Index j = 0; j < outputs(); ++j) result(own ? i : data_.kept[i], j) = basis_.amplitude_of_scale() * coefficients_(j, i);
   return result;
 }
 
@@ -201,9 +200,9 @@ Result<Matrix> Rbf::leave_one_out() {
     for (Index j = 0; j < m; ++j) kept(i, j) = (data_.values(i, j) - fitted[j]) / (1 - w[i]);
   }
   Matrix errors = Matrix::Zero(size(), m);
-  for (Index i = 0; i < n; ++i) errors.row(data_.kept[static_cast<std::size_t>(i)]) = kept.row(i);
+  for (Index i = 0; i < n; ++i) errors.row(data_.kept[i]) = kept.row(i);
   for (Index i = 0; i < size(); ++i) {
-    const std::uint32_t twin = data_.twin_of[static_cast<std::size_t>(i)];
+    const std::uint32_t twin = data_.twin_of[i];
     if (static_cast<Index>(twin) != i) errors.row(twin).setZero();
   }
   return errors;

@@ -14,7 +14,7 @@
 
 namespace handlebody {
 
-/** Numbers are part of the C interface. */
+/** Indices are part of the C interface. */
 enum class WidthChoice : unsigned {
   given = 0,
   spacing = 1,        // from the mean distance to the nearest neighbor: width_choice.hpp
@@ -22,7 +22,7 @@ enum class WidthChoice : unsigned {
 };
 constexpr unsigned width_choice_count = 3;
 
-/** Numbers are part of the C interface. */
+/** Indices are part of the C interface. */
 enum class RobustMethod : unsigned { none = 0, least_absolute = 1, least_median = 2 };  // robust_fit.hpp
 constexpr unsigned robust_method_count = 3;
 

@@ -6,21 +6,21 @@
 #include <vector>
 
 #include "core/numerics/householder_qr.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
 
 /** Norms of the rows of values − design · (least squares over the `rows`, weighted by their `roots`). */
-Vector misfits(const MatrixXd& design, const Matrix& values, const Numbers& rows, const Vector& roots) {
-  const auto count = static_cast<Index>(rows.size());
+Vector misfits(const MatrixXd& design, const Matrix& values, const Indices& rows, const Vector& roots) {
+  const auto count = std::ssize(rows);
   MatrixXd some(count, design.cols());
   for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < design.cols(); ++j) some(i, j) = roots[i] * design(rows[static_cast<std::size_t>(i)], j);
+    for (Index j = 0; j < design.cols(); ++j) some(i, j) = roots[i] * design(rows[i], j);
   const HouseholderQr qr(std::move(some));
   Vector squared = Vector::Zero(design.rows()), x(count), rest(design.rows());
   for (Index output = 0; output < values.cols(); ++output) {
-    for (Index i = 0; i < count; ++i) x[i] = roots[i] * values(rows[static_cast<std::size_t>(i)], output);
+    for (Index i = 0; i < count; ++i) x[i] = roots[i] * values(rows[i], output);
     qr.apply_transposed(x.data());
     qr.solve_r(x.data());
     for (Index i = 0; i < design.rows(); ++i) rest[i] = values(i, output);
@@ -32,8 +32,8 @@ Vector misfits(const MatrixXd& design, const Matrix& values, const Numbers& rows
   return squared;
 }
 
-Numbers all_rows(Index count) {
-  Numbers rows(static_cast<std::size_t>(count));
+Indices all_rows(Index count) {
+  Indices rows(count);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<std::uint32_t>(i);
   return rows;
 }
@@ -43,17 +43,17 @@ double median(const Vector& numbers) {
   std::vector<double> sorted(numbers.data(), numbers.data() + numbers.size());
   for (double& number : sorted)
     if (std::isnan(number)) number = std::numeric_limits<double>::infinity();
-  Numbers order = all_rows(numbers.size());
+  Indices order = all_rows(numbers.size());
   const auto middle = order.size() / 2;
-  split(order.data(), order.data() + middle, order.data() + order.size(),
-        [&](std::uint32_t a, std::uint32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
+  nth_element(order.data(), order.data() + middle, order.data() + order.size(),
+              [&](std::uint32_t a, std::uint32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
   return sorted[order[middle]];
 }
 
 }  // namespace
 
 Vector least_absolute_weights(const MatrixXd& design, const Matrix& values) {
-  const Numbers rows = all_rows(design.rows());
+  const Indices rows = all_rows(design.rows());
   Vector weights = Vector::Ones(design.rows());
   const double spread = (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff();
   const double floor = 1e-7 * (spread > 0 ? spread : 1);
@@ -82,13 +82,13 @@ Vector least_median_weights(const MatrixXd& design, const Matrix& values) {
     state ^= state << 17;
     return static_cast<std::size_t>(state % bound);
   };
-  Numbers deck = all_rows(n);
+  Indices deck = all_rows(n);
   const Vector ones = Vector::Ones(p);
   double least = std::numeric_limits<double>::infinity();
   Vector best = misfits(design, values, all_rows(n), Vector::Ones(n));
   for (int trial = 0; trial < trials; ++trial) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(p); ++i) std::swap(deck[i], deck[i + below(deck.size() - i)]);
-    const Vector errors = misfits(design, values, Numbers(deck.begin(), deck.begin() + p), ones);
+    const Vector errors = misfits(design, values, Indices(deck.begin(), deck.begin() + p), ones);
     const double middle = median(errors);
     if (middle < least) {
       least = middle;

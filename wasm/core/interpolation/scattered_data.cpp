@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/numerics/dense.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -31,7 +31,7 @@ Result<Done> find_twins(const Eigen::Ref<const Matrix>& points, const Eigen::Ref
   const auto by_first_axis = [&](std::uint32_t a, std::uint32_t b) {
     return points(a, 0) != points(b, 0) ? points(a, 0) < points(b, 0) : a < b;
   };
-  const Numbers order = sorted_indices(twin_of.size(), by_first_axis);
+  const Indices order = sorted_indices(twin_of.size(), by_first_axis);
   for (std::size_t a = 0; a < order.size(); ++a) {
     for (std::size_t b = a + 1; b < order.size() && points(order[b], 0) - points(order[a], 0) <= tolerance; ++b) {
       const std::uint32_t i = std::min(order[a], order[b]), j = std::max(order[a], order[b]);
@@ -67,7 +67,7 @@ Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const E
   if (!std::isfinite(data.diagonal) || (data.diagonal > 0 && !std::isfinite(1 / data.diagonal)))
     return Error(HB_ERROR_POINTS_DEGENERATE, {"The extent of the points, ", data.diagonal, ", is beyond double precision."},
                  {"Rescale the points to ordinary numbers."});
-  data.twin_of.resize(static_cast<std::size_t>(count));
+  data.twin_of.resize(count);
   std::iota(data.twin_of.begin(), data.twin_of.end(), 0u);
   if (coincident == Coincident::merge)
     if (auto twins = find_twins(points, values, coincidence * data.diagonal, data.twin_of); !twins) return twins.error();
@@ -76,12 +76,12 @@ Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const E
     data.twin_of[i] = data.twin_of[data.twin_of[i]];  // twins of twins: earlier ones are settled
     if (data.twin_of[i] == i) data.kept.push_back(i);
   }
-  const auto n = static_cast<Index>(data.kept.size());
+  const auto n = std::ssize(data.kept);
   data.points.resize(n, points.cols());
   data.values.resize(n, values.cols());
   for (Index k = 0; k < n; ++k) {
-    data.points.row(k) = points.row(data.kept[static_cast<std::size_t>(k)]);
-    data.values.row(k) = values.row(data.kept[static_cast<std::size_t>(k)]);
+    data.points.row(k) = points.row(data.kept[k]);
+    data.values.row(k) = values.row(data.kept[k]);
   }
   return data;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -110,14 +110,13 @@ SimplexLinear::SimplexLinear(ScatteredData data, OutsideHull outside, Frame fram
 /** Fills w with the weights of the cell at place_. False, and w as it was, where none holds it. */
 bool SimplexLinear::weigh_cell(double* w) {
   if (!cell_.find(place_.data())) return false;
-  const Numbers& members = cell_.members();
-  const auto count = static_cast<Index>(members.size());
+  const Indices& members = cell_.members();
+  const auto count = std::ssize(members);
   for (Index m = 0; m < count; ++m)
-    for (Index axis = 0; axis < place_.size(); ++axis)
-      least_norm_.point(m)[axis] = points_(members[static_cast<std::size_t>(m)], axis) - place_[axis];
+    for (Index axis = 0; axis < place_.size(); ++axis) least_norm_.point(m)[axis] = points_(members[m], axis) - place_[axis];
   if (!least_norm_.solve(count)) return false;
   std::fill(w, w + points_.rows(), 0.0);
-  for (Index m = 0; m < count; ++m) w[members[static_cast<std::size_t>(m)]] = least_norm_.weight(m);
+  for (Index m = 0; m < count; ++m) w[members[m]] = least_norm_.weight(m);
   return true;
 }
 

@@ -120,7 +120,7 @@ TensionSpline1d::TensionSpline1d(ScatteredData data, double stiffness) : Interpo
 
 /** M z = rhs in place, where rhs is 0 before `first`; 0 at both ends. */
 void TensionSpline1d::solve(double* rhs, Index first) const {
-  const auto n = static_cast<Index>(x_.size());
+  const auto n = std::ssize(x_);
   const double *over = over_.data(), *link = link_.data();
   for (Index i = first + 1; i < n; ++i) rhs[i] -= link[i] * rhs[i - 1];
   for (Index i = n - 1; i >= 0; --i) rhs[i] = over[i] * rhs[i] - (i + 1 < n ? link[i + 1] * rhs[i + 1] : 0);
@@ -141,8 +141,8 @@ TensionSpline1d::Blend TensionSpline1d::blend(Index interval, double x, bool der
 }
 
 void TensionSpline1d::combine(const double* queries, Index count, double* out, bool derivative) const {
-  const Index m = outputs(), last = static_cast<Index>(x_.size()) - 1;
-  const auto row = [&](Index i) { return data_.values.data() + m * static_cast<Index>(order_[static_cast<std::size_t>(i)]); };
+  const Index m = outputs(), last = std::ssize(x_) - 1;
+  const auto row = [&](Index i) { return data_.values.data() + m * static_cast<Index>(order_[i]); };
   for (Index q = 0; q < count; ++q, out += m) {
     const Index i = interval_of(queries[q]);
     const double *left = row(std::max<Index>(i, 0)), *right = left, *slope = slopes_.data();
@@ -160,7 +160,7 @@ void TensionSpline1d::combine(const double* queries, Index count, double* out, b
 }
 
 void TensionSpline1d::weigh(const double* query, double* w, double* slopes) {
-  const auto n = static_cast<Index>(x_.size());
+  const auto n = std::ssize(x_);
   const Index i = interval_of(*query);
   std::fill(w, w + n, 0.0);
   if (slopes) std::fill(slopes, slopes + n, 0.0);
@@ -175,12 +175,12 @@ void TensionSpline1d::weigh(const double* query, double* w, double* slopes) {
     if (!to) return;
     const Blend b = blend(i, *query, derivative);
     std::fill(z_.begin(), z_.end(), 0.0);
-    z_[static_cast<std::size_t>(i)] = b.left;
+    z_[i] = b.left;
     z_[static_cast<std::size_t>(i) + 1] = b.right;
     double* z = z_.data();
     solve(z, i);
     for (Index k = 0; k + 1 < n; ++k) {
-      const double pulled = pull_[static_cast<std::size_t>(k)] * (z[k] + z[k + 1]);
+      const double pulled = pull_[k] * (z[k] + z[k + 1]);
       to[order[k]] -= pulled;
       to[order[k + 1]] += pulled;
     }

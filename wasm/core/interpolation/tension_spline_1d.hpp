@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/interpolation/interpolant.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 
@@ -50,7 +50,7 @@ class TensionSpline1d final : public Interpolant {
   void solve(double* rhs, Index first) const;
 
   double stiffness_;          // b
-  Numbers order_;             // the kept points from left to right
+  Indices order_;             // the kept points from left to right
   std::vector<double> x_;     // n: their places
   std::vector<double> pull_;  // n − 1: (p + q)/H², what a rise of the interval puts on the right-hand sides of both its ends
   std::vector<double> over_;  // n: the matrix as L D Lᵀ: 1/D, and 0 at both ends, whose slope is known

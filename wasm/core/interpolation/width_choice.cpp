@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -23,7 +23,7 @@ ScatteredData thinned(const ScatteredData& data) {
   const Index n = data.points.rows();
   if (n <= most_points) return data;
   const Matrix& points = data.points;
-  const Numbers order = sorted_indices(static_cast<std::size_t>(n), [&](std::uint32_t a, std::uint32_t b) {
+  const Indices order = sorted_indices(n, [&](std::uint32_t a, std::uint32_t b) {
     for (Index axis = 0; axis < points.cols(); ++axis)
       if (points(a, axis) != points(b, axis)) return points(a, axis) < points(b, axis);
     return false;
@@ -32,7 +32,7 @@ ScatteredData thinned(const ScatteredData& data) {
   some.points.resize(most_points, points.cols());
   some.values.resize(most_points, data.values.cols());
   for (Index i = 0; i < most_points; ++i) {
-    const std::uint32_t from = order[static_cast<std::size_t>(i * n / most_points)];
+    const std::uint32_t from = order[i * n / most_points];
     some.points.row(i) = points.row(from);
     some.values.row(i) = data.values.row(from);
   }

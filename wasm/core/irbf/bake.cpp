@@ -32,7 +32,7 @@ Result<Done> check_options(const BakeOptions& options, Index vertices) {
   if (options.max_spheres < 1 || options.max_spheres > 2000) {
     return invalid_option("number of spheres", options.max_spheres, 1, 2000);
   }
-  if (!options.density.empty() && static_cast<Index>(options.density.size()) != vertices) {
+  if (!options.density.empty() && std::ssize(options.density) != vertices) {
     return Error(HB_ERROR_INVALID_SHAPE, {"There are ", options.density.size(), " densities for ", vertices, " vertices."},
                  {"Give one number a vertex, 1 where nothing special is wanted."}, HB_CULPRIT_OPTION);
   }
@@ -88,12 +88,11 @@ Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& tri
   bake.body_.triangles = triangles;
   bake.body_.normalization = normalize(positions);
   bake.weld_ = weld_vertices(positions);
-  const auto vertices = static_cast<Index>(bake.weld_.unique.size());
+  const auto vertices = std::ssize(bake.weld_.unique);
   bake.options_.centers = std::min(bake.options_.centers, vertices);
   bake.solver_positions_.resize(vertices, 3);
   for (Index v = 0; v < vertices; ++v) {
-    bake.solver_positions_.row(v) =
-        bake.body_.normalization.to_solver(positions.row(bake.weld_.unique[static_cast<std::size_t>(v)]).transpose());
+    bake.solver_positions_.row(v) = bake.body_.normalization.to_solver(positions.row(bake.weld_.unique[v]).transpose());
   }
   bake.triangles_ = weld_triangles(bake.weld_, triangles);
   if (bake.options_.cloud) {  // a point is a triangle without extent, to be near to
@@ -200,7 +199,7 @@ void Bake::sample_vertices() {
   }
   if (samples_.size() < count) return;
   if (outside_ > 0) {
-    const std::uint32_t vertex = weld_.unique[static_cast<std::size_t>(farthest_outside_)];
+    const std::uint32_t vertex = weld_.unique[farthest_outside_];
     warnings_.push_back({HB_WARNING_PART_OUTSIDE, outside_, how_far_outside_ * body_.normalization.diagonal,
                          Vector3(body_.positions.row(vertex).transpose()), static_cast<Index>(vertex)});
   }
@@ -218,13 +217,13 @@ void Bake::sample_vertices() {
     const double distance = weight_[v] * weight_[v] * solver_positions_.row(v).squaredNorm();
     if (distance > best) best = distance, next_center_ = v;
   }
-  field_.resize(static_cast<std::size_t>(body_.domain.size()));
+  field_.resize(body_.domain.size());
   body_.distances.reserve(field_.size() * static_cast<std::size_t>(options_.centers));
   phase_ = Phase::centers;
 }
 
 void Bake::add_center() {
-  body_.centers.push_back(weld_.unique[static_cast<std::size_t>(next_center_)]);
+  body_.centers.push_back(weld_.unique[next_center_]);
   const Vector3 center = samples_.point(next_center_);
   distance_->measure(center, field_.data());
 
@@ -262,7 +261,7 @@ void Bake::add_center() {
     coverage_[v] = std::min(coverage_[v], distance);
     compare(v);
   }
-  if (static_cast<Index>(body_.centers.size()) < options_.centers) return;
+  if (std::ssize(body_.centers) < options_.centers) return;
   body_.distance_scale = *std::max_element(scales_.begin(), scales_.end());
   next_ = 0;
   phase_ = Phase::quantize;
@@ -270,7 +269,7 @@ void Bake::add_center() {
 
 /** All centers' codes to one scale, which rounds them once more: they are off by one code at most. */
 void Bake::quantize() {
-  const auto row = static_cast<Index>(field_.size());
+  const auto row = std::ssize(field_);
   for (Index done = 0; done < codes_per_step && next_ < options_.centers; done += row, ++next_) {
     const double factor = scales_[next_] / body_.distance_scale;
     std::uint16_t* codes = body_.distances.data() + next_ * row;

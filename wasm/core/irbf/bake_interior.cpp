@@ -4,7 +4,7 @@
 
 #include "core/distance/filled_shell.hpp"
 #include "core/irbf/bake.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {

@@ -20,7 +20,7 @@ constexpr double cancellation = 1e-3;
  *  block[sample · lanes + lane], for all samples and blocks of centers; lanes beyond the last center repeat it. */
 template <typename Scalar, typename Visit>
 void for_each_block(const Body& body, const InteriorSamples& samples, const Visit& visit) {
-  const auto centers = static_cast<Index>(body.centers.size());
+  const auto centers = std::ssize(body.centers);
   const std::size_t voxels = body.domain.voxels().size();
   std::vector<Scalar> ratios;
   std::array<Scalar, lanes * chunk> block;
@@ -29,8 +29,8 @@ void for_each_block(const Body& body, const InteriorSamples& samples, const Visi
     std::array<Vector3, lanes> places;
     for (Index lane = 0; lane < lanes; ++lane) {
       const Index center = std::min(first + lane, centers - 1);
-      codes[static_cast<std::size_t>(lane)] = body.distances.data() + static_cast<std::size_t>(center) * voxels;
-      places[static_cast<std::size_t>(lane)] = body.center_position(center);
+      codes[lane] = body.distances.data() + static_cast<std::size_t>(center) * voxels;
+      places[lane] = body.center_position(center);
     }
     samples.template block_ratios<Scalar, lanes>(places, codes, static_cast<Scalar>(body.distance_scale), ratios);
     for (Index from = 0; from < samples.size(); from += chunk) {
@@ -66,13 +66,12 @@ Result<Done> Basis::evaluate(const InteriorSamples& samples,
   for_each_block<Scalar>(*body_, samples, [&](Index first, Index from, Index count, const Scalar* block) {
     for (Index i = 0; i < count * lanes; ++i) {
       const double s = scale * static_cast<double>(block[i]);
-      values[static_cast<std::size_t>(i)] = s * s;
+      values[i] = s * s;
     }
     kernel_.values(values.data(), count * lanes);
     const Index width = std::min(lanes, size() - first);
     for (Index i = 0; i < count; ++i)
-      for (Index lane = 0; lane < width; ++lane)
-        phi(from + i, first + lane) = static_cast<Scalar>(values[static_cast<std::size_t>(i * lanes + lane)]);
+      for (Index lane = 0; lane < width; ++lane) phi(from + i, first + lane) = static_cast<Scalar>(values[i * lanes + lane]);
   });
   for (Index i = 0; i < samples.size(); ++i) {
     Scalar* row = &phi(i, 0);

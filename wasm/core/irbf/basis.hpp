@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/distance/interior_samples.hpp"
+#include "core/errors/result.hpp"
 #include "core/irbf/body.hpp"
 #include "core/kernels/kernel.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -17,7 +17,7 @@ class Basis {
   Basis(const Body& body, const Kernel& kernel);
 
   const Kernel& kernel() const { return kernel_; }
-  Index size() const { return static_cast<Index>(body_->centers.size()); }
+  Index size() const { return std::ssize(body_->centers); }
 
   /** φ at the samples: samples × centers; every row sums to 1, but for rows where a kernel of compact support vanishes: there the
    *  affine part alone acts. Fails with KERNEL_FAILED where a kernel of the caller's gave a number that is not finite, and with

@@ -21,7 +21,7 @@ Points Body::solver_positions() const {
 }
 
 Vector3 Body::center_position(Index center) const {
-  return normalization.to_solver(positions.row(centers[static_cast<std::size_t>(center)]).transpose());
+  return normalization.to_solver(positions.row(centers[center]).transpose());
 }
 
 Result<Done> check_mesh_size(std::int64_t vertices, std::int64_t triangles) {

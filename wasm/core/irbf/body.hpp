@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/distance/voxel_domain.hpp"
+#include "core/errors/result.hpp"
 #include "core/irbf/sphere_packing.hpp"
-#include "core/numerics/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

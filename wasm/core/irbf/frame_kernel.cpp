@@ -40,10 +40,10 @@ std::int32_t pack(std::int32_t low, std::int32_t high) {
 FrameKernel::FrameKernel(const PointsF& positions, const MatrixF& matrix, FramePrecision precision)
     : precision_(precision), vertices_(positions.rows()), columns_(matrix.cols()) {
   const Index tiles = (vertices_ + lanes - 1) / lanes;
-  positions_.resize(static_cast<std::size_t>(tiles * 3));
+  positions_.resize(tiles * 3);
   for (Index v = 0; v < vertices_; ++v) {
     FloatTile* tile = positions_.data() + v / lanes * 3;
-    for (Index axis = 0; axis < 3; ++axis) tile[axis][static_cast<std::size_t>(v % lanes / 4)][v % 4] = positions(v, axis);
+    for (Index axis = 0; axis < 3; ++axis) tile[axis][v % lanes / 4][v % 4] = positions(v, axis);
   }
   if (precision == FramePrecision::floating) {
     store_floats(matrix);
@@ -53,21 +53,21 @@ FrameKernel::FrameKernel(const PointsF& positions, const MatrixF& matrix, FrameP
 }
 
 void FrameKernel::store_floats(const MatrixF& matrix) {
-  floats_.resize(static_cast<std::size_t>((vertices_ + lanes - 1) / lanes * columns_));
+  floats_.resize((vertices_ + lanes - 1) / lanes * columns_);
   coefficients_.resize(columns_, 3);
   for (Index v = 0; v < vertices_; ++v) {
     FloatTile* row = floats_.data() + v / lanes * columns_;
-    for (Index c = 0; c < columns_; ++c) row[c][static_cast<std::size_t>(v % lanes / 4)][v % 4] = matrix(v, c);
+    for (Index c = 0; c < columns_; ++c) row[c][v % lanes / 4][v % 4] = matrix(v, c);
   }
 }
 
 void FrameKernel::store_fixed(const MatrixF& matrix) {
   const Index pairs = (columns_ + 1) / 2, chunks = (pairs + chunk - 1) / chunk;
   const auto columns = static_cast<std::size_t>(columns_);
-  fixed_.resize(static_cast<std::size_t>((vertices_ + lanes - 1) / lanes * pairs));
-  packed_.resize(static_cast<std::size_t>(3 * pairs));
-  worth_.resize(static_cast<std::size_t>(3 * chunks));
-  largest_sums_.assign(static_cast<std::size_t>(chunks), 0);
+  fixed_.resize((vertices_ + lanes - 1) / lanes * pairs);
+  packed_.resize(3 * pairs);
+  worth_.resize(3 * chunks);
+  largest_sums_.assign(chunks, 0);
   std::vector<float> low(columns, 0), high(columns, 0), means(columns), scales(columns);
   means_.assign(columns, 0);
   for (Index v = 0; v < vertices_; ++v) {
@@ -93,12 +93,12 @@ void FrameKernel::store_fixed(const MatrixF& matrix) {
     for (Index c = 0, k = 0; c < columns_; ++k) {
       float sum = 0;
       for (const Index end = std::min(columns_, c + 2 * chunk); c < end; ++c) {
-        const float scaled = (numbers[c] - means[static_cast<std::size_t>(c)]) * scales[static_cast<std::size_t>(c)];
+        const float scaled = (numbers[c] - means[c]) * scales[c];
         const float code = std::clamp(std::floor(scaled + 0.5f), -32767.f, 32767.f);
         row[c / 2][quad][v % 4 * 2 + c % 2] = static_cast<std::int16_t>(code);
         sum += std::abs(code);
       }
-      double& largest = largest_sums_[static_cast<std::size_t>(k)];
+      double& largest = largest_sums_[k];
       largest = std::max(largest, static_cast<double>(sum));
     }
   }
@@ -109,19 +109,19 @@ void FrameKernel::scale_coefficients(const Matrix& coefficients) {
   for (Index axis = 0; axis < 3; ++axis) {
     for (Index c = 0, k = 0; c < columns_; ++k) {
       const Index end = std::min(columns_, c + 2 * chunk);
-      const auto size = [&](Index column) { return coefficients(column, axis) * units_[static_cast<std::size_t>(column)]; };
+      const auto size = [&](Index column) { return coefficients(column, axis) * units_[column]; };
       double largest = 0;
       for (Index column = c; column < end; ++column) largest = std::max(largest, std::abs(size(column)));
       // |Σ code·code| ≤ Σ |code of the matrix| (scale·largest + ½) < 2³¹.
-      const double sum = largest_sums_[static_cast<std::size_t>(k)];
+      const double sum = largest_sums_[k];
       const double scale = largest > 0 ? std::min(most, sum > 0 ? most_sum / sum - 1 : most) / largest : 0;
       for (; c < end; c += 2) {
         const auto code = [&](Index column) {
           return column < end ? static_cast<std::int32_t>(std::lrint(size(column) * scale)) : 0;
         };
-        packed_[static_cast<std::size_t>(c / 2 * 3 + axis)] = pack(code(c), code(c + 1));
+        packed_[c / 2 * 3 + axis] = pack(code(c), code(c + 1));
       }
-      worth_[static_cast<std::size_t>(3 * k + axis)] = scale > 0 ? static_cast<float>(1 / scale) : 0;
+      worth_[3 * k + axis] = scale > 0 ? static_cast<float>(1 / scale) : 0;
     }
   }
 }
@@ -162,7 +162,7 @@ void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const
   if (fixed) {
     scale_coefficients(coefficients);
     for (Index c = 0; c < columns_; ++c)
-      for (Index axis = 0; axis < 3; ++axis) shift[axis] += means_[static_cast<std::size_t>(c)] * coefficients(c, axis);
+      for (Index axis = 0; axis < 3; ++axis) shift[axis] += means_[c] * coefficients(c, axis);
   } else {
     coefficients_ = coefficients.cast<float>();
   }
@@ -184,7 +184,7 @@ void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const
     }
     const Index count = std::min(lanes, vertices_ - first);
     for (Index lane = 0; lane < count; ++lane, out += 3)
-      for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = sums[axis][static_cast<std::size_t>(lane / 4)][lane % 4];
+      for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = sums[axis][lane / 4][lane % 4];
   }
 }
 

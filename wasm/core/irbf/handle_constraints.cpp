@@ -55,7 +55,7 @@ Result<HandleConstraints> HandleConstraints::create(const Body& body, const Basi
                    {"Put it on a vertex or at a point inside the surface."}, HB_CULPRIT_HANDLE, k);
     }
     constraints.points_.row(next++) = point;
-    if (kinds[static_cast<std::size_t>(k)] != HandleKind::rotation) continue;
+    if (kinds[k] != HandleKind::rotation) continue;
     for (Index i = 0; i < 6; ++i) constraints.points_.row(next++) = structure_point(point, radius, i);
   }
 
@@ -80,7 +80,7 @@ Result<HandleConstraints> HandleConstraints::create(const Body& body, const Basi
   for (Index k = 1; k < places.rows(); ++k) {
     for (Index other = 0; other < k; ++other) {
       if ((places.row(k) - places.row(other)).norm() > same_place * body.normalization.diagonal) continue;
-      constraints.same_as_[static_cast<std::size_t>(k)] = other;
+      constraints.same_as_[k] = other;
       break;
     }
   }
@@ -105,7 +105,7 @@ Result<Done> HandleConstraints::read_targets(const double* targets, const Normal
   Index row = 0;
   for (Index k = 0; k < handles(); ++k) {
     const Eigen::Map<const Eigen::Matrix<double, target_size, 1>> target(targets + k * target_size);
-    const bool rotates = kinds_[static_cast<std::size_t>(k)] == HandleKind::rotation;
+    const bool rotates = kinds_[k] == HandleKind::rotation;
     const Eigen::Quaterniond rotation(target(6), target(3), target(4), target(5));
     const bool finite = rotates ? target.allFinite() && rotation.norm() > 1e-9 : target.head<3>().allFinite();
     // A target far beyond any screen is a slip too, and its squares would overflow below.
@@ -115,7 +115,7 @@ Result<Done> HandleConstraints::read_targets(const double* targets, const Normal
                    {"Give a position near the model and, for rotation handles, a unit quaternion and finite scales."},
                    HB_CULPRIT_HANDLE, k);
     }
-    const Index other = same_as_[static_cast<std::size_t>(k)];
+    const Index other = same_as_[k];
     if (other >= 0) {
       const Eigen::Map<const Vector3> wanted(targets + other * target_size);
       if ((wanted - target.head<3>()).norm() > same_place * normalization.diagonal) {

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
 #include "core/mesh/triangle_tree.hpp"
 #include "core/numerics/dense.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 
@@ -33,7 +33,7 @@ class HandleConstraints {
   static Result<HandleConstraints> create(const Body& body, const Basis& basis, std::unique_ptr<TriangleTree>& surface,
                                           const ConstPoints& places, const std::vector<HandleKind>& kinds, double radius);
 
-  Index handles() const { return static_cast<Index>(kinds_.size()); }
+  Index handles() const { return std::ssize(kinds_); }
 
   /** Constraint points, solver space: a handle's own, then a rotation handle's six structure points. */
   const Points& points() const { return points_; }

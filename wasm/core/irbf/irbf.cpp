@@ -84,11 +84,11 @@ Result<Done> Irbf::prepare_vertices() {
   welded_triangles_ = weld_triangles(weld_, body_.triangles);
   stored_ = body_.positions.cast<float>();
   const Points solver = body_.solver_positions();
-  const Index count = static_cast<Index>(weld_.unique.size());
+  const Index count = std::ssize(weld_.unique);
   InteriorSamples samples;
   rest_.resize(count, 3);
   for (Index u = 0; u < count; ++u) {
-    const Vector3 point = solver.row(weld_.unique[static_cast<std::size_t>(u)]);
+    const Vector3 point = solver.row(weld_.unique[u]);
     samples.add(body_.domain, point);
     rest_.row(u) = point.cast<float>();
   }
@@ -236,7 +236,7 @@ void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
   const float *stored = stored_.data(), *displacement = displacement_.data();
   const Index count = vertex_count();
   for (Index v = 0; v < count; ++v) {
-    const float* moved = displacement + 3 * weld_.to_unique[static_cast<std::size_t>(v)];
+    const float* moved = displacement + 3 * weld_.to_unique[v];
     for (Index axis = 0; axis < 3; ++axis) positions[3 * v + axis] = stored[3 * v + axis] + diagonal * moved[axis];
   }
   if (normals == nullptr) return;
@@ -245,7 +245,7 @@ void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
   vertex_normals(deformed_, welded_triangles_, deformed_normals_);
   Eigen::Map<PointsF> out_normals(normals, vertex_count(), 3);
   for (Index v = 0; v < vertex_count(); ++v) {
-    const Index u = weld_.to_unique[static_cast<std::size_t>(v)];
+    const Index u = weld_.to_unique[v];
     const Eigen::Vector3f to = deformed_normals_.row(u);
     if (rest_normals == nullptr) {
       out_normals.row(v) = to;

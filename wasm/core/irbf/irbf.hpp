@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
 #include "core/irbf/frame_kernel.hpp"
@@ -16,7 +17,6 @@
 #include "core/mesh/vertex_normals.hpp"
 #include "core/mesh/weld.hpp"
 #include "core/numerics/dense.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 

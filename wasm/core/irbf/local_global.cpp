@@ -24,7 +24,7 @@ LocalGlobal::LocalGlobal(Points edges, Vector edge_scale)
       displaced_(Columns3::Zero(edges_.rows(), 3)),
       turned_(displaced_),
       stepped_(displaced_),
-      rotations_(static_cast<std::size_t>(edges_.rows() / 3), Matrix3::Identity()),
+      rotations_(edges_.rows() / 3, Matrix3::Identity()),
       trial_(rotations_) {}
 
 void LocalGlobal::set_system(const MatrixXd& hat) {
@@ -35,8 +35,8 @@ void LocalGlobal::set_system(const MatrixXd& hat) {
 
 double LocalGlobal::energy(const std::vector<Matrix3>& rotations) {
   // What is solved for are displacements: √w (M_b − I) e.
-  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
-    const Matrix3 turn = rotations[static_cast<std::size_t>(b)] - Matrix3::Identity();
+  for (Index b = 0; b < std::ssize(rotations); ++b) {
+    const Matrix3 turn = rotations[b] - Matrix3::Identity();
     right_hand_side_.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
   }
   multiply_symmetric(*hat_, right_hand_side_, image_);
@@ -54,9 +54,9 @@ void LocalGlobal::start(double energy) {
 
 /** The local step: Procrustes, eq. (12), for every sphere. */
 void LocalGlobal::plain_step(std::vector<Matrix3>& rotations) const {
-  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
+  for (Index b = 0; b < std::ssize(rotations); ++b) {
     const Matrix3 moved = displaced_.middleRows<3>(3 * b) + edges_.middleRows<3>(3 * b);
-    rotations[static_cast<std::size_t>(b)] = closest_rotation(moved.transpose() * edges_.middleRows<3>(3 * b));
+    rotations[b] = closest_rotation(moved.transpose() * edges_.middleRows<3>(3 * b));
   }
 }
 
@@ -69,14 +69,14 @@ void LocalGlobal::accelerated_step() {
     residual_ = right_hand_side_ - image_;
     hessian_.step(edges_, residual_, rotations_, trial_);
   }
-  for (Index b = 0; b < static_cast<Index>(rotations_.size()); ++b) {
+  for (Index b = 0; b < std::ssize(rotations_); ++b) {
     const auto edges = edges_.middleRows<3>(3 * b);
-    turned_.middleRows<3>(3 * b).noalias() = edges * rotations_[static_cast<std::size_t>(b)].transpose();
-    stepped_.middleRows<3>(3 * b).noalias() = edges * trial_[static_cast<std::size_t>(b)].transpose();
+    turned_.middleRows<3>(3 * b).noalias() = edges * rotations_[b].transpose();
+    stepped_.middleRows<3>(3 * b).noalias() = edges * trial_[b].transpose();
   }
   anderson_.accelerate(turned_.data(), stepped_.data(), stepped_.data());
-  for (Index b = 0; b < static_cast<Index>(rotations_.size()); ++b) {
-    trial_[static_cast<std::size_t>(b)] = closest_rotation(stepped_.middleRows<3>(3 * b).transpose() * edges_.middleRows<3>(3 * b));
+  for (Index b = 0; b < std::ssize(rotations_); ++b) {
+    trial_[b] = closest_rotation(stepped_.middleRows<3>(3 * b).transpose() * edges_.middleRows<3>(3 * b));
   }
 }
 

@@ -98,33 +98,33 @@ Error too_large(Index voxels, double bytes) {
 Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
   const VoxelDomain& domain = body.domain;
   const Grid& grid = domain.grid();
-  // Numbers of the grid's corners; of a voxel, six tetrahedra and at most eight corners of its own.
+  // Indices of the grid's corners; of a voxel, six tetrahedra and at most eight corners of its own.
   const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
   const double fixed = 4.0 * static_cast<double>(across[0] * across[1] * across[2]) + 1300.0 * static_cast<double>(domain.size());
   if (fixed > most_bytes) return too_large(domain.size(), fixed);
   std::unique_ptr<VoxelQuality> quality(new VoxelQuality());
   // Corners of the grid's cells, one more along each axis than there are voxels, numbered as they are met.
-  std::vector<std::int32_t> numbers(static_cast<std::size_t>(across[0] * across[1] * across[2]), -1);
+  std::vector<std::int32_t> numbers(across[0] * across[1] * across[2], -1);
   std::vector<std::uint8_t> uses;  // of each corner by voxels: eight for those inside
   InteriorSamples samples;
   quality->tetrahedra_.resize(6 * domain.size(), 4);
   for (Index v = 0; v < domain.size(); ++v) {
-    const auto cell = grid.cell(domain.voxels()[static_cast<std::size_t>(v)]);
+    const auto cell = grid.cell(domain.voxels()[v]);
     std::array<std::uint32_t, 8> corners{};
     for (int c = 0; c < 8; ++c) {
       const std::array<std::int32_t, 3> at{cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)};
-      std::int32_t& number = numbers[static_cast<std::size_t>(at[0] + across[0] * (at[1] + across[1] * at[2]))];
+      std::int32_t& number = numbers[at[0] + across[0] * (at[1] + across[1] * at[2])];
       if (number < 0) {
         number = static_cast<std::int32_t>(uses.size());
         uses.push_back(0);
         samples.add(domain, grid.origin + grid.spacing * (Vector3(at[0], at[1], at[2]) - Vector3::Constant(0.5)));
       }
-      ++uses[static_cast<std::size_t>(number)];
-      corners[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(number);
+      ++uses[number];
+      corners[c] = static_cast<std::uint32_t>(number);
     }
     for (std::size_t t = 0; t < kuhn.size(); ++t)
       for (std::size_t k = 0; k < 4; ++k)
-        quality->tetrahedra_(6 * v + static_cast<Index>(t), static_cast<Index>(k)) = corners[static_cast<std::size_t>(kuhn[t][k])];
+        quality->tetrahedra_(6 * v + static_cast<Index>(t), static_cast<Index>(k)) = corners[kuhn[t][k]];
   }
   // Most voxels have one corner of their own and those of thin shapes up to eight: how much the basis takes is known only now.
   const double bytes = fixed + 4.0 * static_cast<double>(samples.size()) * static_cast<double>(basis.size());
@@ -135,7 +135,7 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
   double worst = 0;
   for (Index i = 0; i < samples.size(); ++i) {
     quality->rest_.row(i) = samples.point(i);
-    if (uses[static_cast<std::size_t>(i)] < 8) continue;
+    if (uses[i] < 8) continue;
     for (std::size_t c = 0; c < on_surface.low.size(); ++c) {
       const float value = quality->psi_(i, static_cast<Index>(c)), low = on_surface.low[c], high = on_surface.high[c];
       const float beyond = std::max(value - high, low - value);

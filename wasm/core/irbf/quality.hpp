@@ -2,9 +2,9 @@
 // the basis is from obeying the maximum principle (§6).
 #pragma once
 
+#include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 

@@ -2,8 +2,8 @@
 // multipliers. Both become one matrix times the right-hand side, of which an iteration needs only the rows that it looks at.
 #pragma once
 
+#include "core/errors/result.hpp"
 #include "core/numerics/dense.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 

@@ -48,8 +48,8 @@ RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat) {
 
 void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& rotations,
                            std::vector<Matrix3>& turned) {
-  for (Index b = 0; b < static_cast<Index>(rotations.size()); ++b) {
-    const Matrix3& rotation = rotations[static_cast<std::size_t>(b)];
+  for (Index b = 0; b < std::ssize(rotations); ++b) {
+    const Matrix3& rotation = rotations[b];
     Vector3 torque = Vector3::Zero();
     for (Index i = 3 * b; i < 3 * b + 3; ++i)
       torque += Vector3(edges.row(i)).cross(Vector3(rotation.transpose() * residual.row(i).transpose()));

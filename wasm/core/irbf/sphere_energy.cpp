@@ -13,7 +13,7 @@ constexpr double automatic_part = 0.02;
 }  // namespace
 
 Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent) {
-  const Index rows = 3 * static_cast<Index>(body.spheres.size()), centers = basis.size();
+  const Index rows = 3 * std::ssize(body.spheres), centers = basis.size();
   InteriorSamples samples;
   for (const Sphere& sphere : body.spheres)
     for (Index i = 0; i < 6; ++i) samples.add(body.domain, structure_point(sphere.center, sphere.radius, i));

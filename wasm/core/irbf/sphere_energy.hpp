@@ -1,10 +1,10 @@
 // The energy of paper 001, eqs. (8)–(10), as rows of a least squares problem: what the spheres say of the mapping's parameters.
 #pragma once
 
+#include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
 #include "core/numerics/dense.hpp"
-#include "core/numerics/result.hpp"
 
 namespace handlebody {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr double tie = 1e-6;  // in spacings: distances that differ by rounding only are equal
 
 /** Voxels by falling surface distance; ties in voxel order, whatever the rounding. */
-Numbers largest_first(const std::vector<double>& surface_distance, double spacing) {
+Indices largest_first(const std::vector<double>& surface_distance, double spacing) {
   std::vector<std::int64_t> keys(surface_distance.size());
   for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = std::llround(surface_distance[v] / (tie * spacing));
   return sorted_indices(keys.size(),
@@ -70,7 +70,7 @@ std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector
   const std::vector<std::int32_t> component = face_components(domain);
   std::int64_t waiting =
       component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;  // parts without a sphere
-  std::vector<std::uint8_t> served(static_cast<std::size_t>(waiting)), covered(component.size());
+  std::vector<std::uint8_t> served(waiting), covered(component.size());
   const double min_radius = options.min_radius * domain.grid().spacing;
 
   std::vector<Sphere> spheres;

@@ -10,7 +10,7 @@
 
 namespace handlebody {
 
-/** Numbers are part of the C interface. */
+/** Indices are part of the C interface. */
 enum class KernelKind : unsigned {
   linear = 0,                // r: the biharmonic kernel in 3D
   cubic = 1,                 // r³: biharmonic in 1D (the natural cubic spline), triharmonic in 3D

@@ -26,7 +26,7 @@
 //   α = 0      e^{−kr}/(2kβ) or −r/(2β)    –                                 –                             k² = γ/β
 #pragma once
 
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -15,7 +15,7 @@ class Edges {
  public:
   Edges(const Triangles& triangles, Index vertices) : triangles_(triangles) {
     // By the lower end in one pass, then by the higher among the few that share it.
-    Numbers starts(static_cast<std::size_t>(vertices) + 1);
+    Indices starts(static_cast<std::size_t>(vertices) + 1);
     const auto count = static_cast<std::uint32_t>(triangles.size());
     const auto for_each_side = [&](const auto& visit) {
       for (std::uint32_t side = 0; side < count; ++side) {
@@ -27,9 +27,9 @@ class Edges {
     for_each_side([&](std::uint32_t, std::uint32_t low) { ++starts[low + 1]; });
     for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
     order_.resize(starts.back());
-    Numbers next = starts;
+    Indices next = starts;
     for_each_side([&](std::uint32_t side, std::uint32_t low) { order_[next[low]++] = side; });
-    Numbers few;
+    Indices few;
     for (std::size_t v = 0; v + 1 < starts.size(); ++v) {
       few.assign(order_.begin() + starts[v], order_.begin() + starts[v + 1]);
       const auto before = [&](std::uint32_t s, std::uint32_t t) {
@@ -66,7 +66,7 @@ class Edges {
 
  private:
   const Triangles& triangles_;
-  Numbers order_;
+  Indices order_;
 };
 
 Index count_open(const Edges& edges) {
@@ -102,17 +102,16 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
   }
 
   // Neighbors across edges of two, and whether they disagree there.
-  constexpr std::uint32_t none = 0xffffffff;
-  Numbers across(static_cast<std::size_t>(triangles.size()), none);
+  Indices across(triangles.size(), no_index);
   edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
     if (last - first == 2) across[first[0]] = first[1], across[first[1]] = first[0];
   });
   const auto count = static_cast<std::size_t>(triangles.rows());
   std::vector<std::uint8_t> turned(count);
-  Numbers part(count, none), queue;
+  Indices part(count, no_index), queue;
   std::vector<std::size_t> starts;  // of the parts in the queue
   for (std::uint32_t seed = 0; seed < count; ++seed) {
-    if (part[seed] != none) continue;
+    if (part[seed] != no_index) continue;
     std::size_t head = queue.size();
     const auto number = static_cast<std::uint32_t>(starts.size());
     starts.push_back(head);
@@ -120,7 +119,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
     queue.push_back(seed);
     for (; head < queue.size(); ++head) {
       for (std::uint32_t side = 3 * queue[head]; side < 3 * queue[head] + 3; ++side) {
-        if (across[side] == none || part[across[side] / 3] != none) continue;
+        if (across[side] == no_index || part[across[side] / 3] != no_index) continue;
         const std::uint32_t t = across[side] / 3;
         turned[t] = turned[queue[head]] ^ (edges.direction(side) == edges.direction(across[side]));
         part[t] = number;

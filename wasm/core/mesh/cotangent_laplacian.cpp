@@ -27,20 +27,20 @@ SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
   const Index corners = mesh.simplices.cols(), d = mesh.positions.cols();
   const double order = static_cast<double>(corners) - 1;
   SparseEntries entries(mesh.positions.rows());
-  entries.reserve(static_cast<std::size_t>(mesh.simplices.rows() * corners * corners));
+  entries.reserve(mesh.simplices.rows() * corners * corners);
   std::array<Vector3, 4> p, normals;
   for (Index s = 0; s < mesh.simplices.rows(); ++s) {
     const std::uint32_t* const v = mesh.simplices.data() + s * corners;
     for (Index k = 0; k < corners; ++k) {
       const double* const at = mesh.positions.data() + v[k] * d;
-      p[static_cast<std::size_t>(k)] = {at[0], at[1], d == 3 ? at[2] : 0.0};
+      p[k] = {at[0], at[1], d == 3 ? at[2] : 0.0};
     }
     face_normals(p, corners, normals);
     // ∫ ∇φᵢ·∇φⱼ = nᵢ·nⱼ / (d² volume). The diagonal is minus the others' sum, so that constants vanish to the last bit.
     const double scale = 1 / (order * order * simplex_volume(mesh, s));
     for (Index i = 0; i < corners; ++i) {
       for (Index j = 0; j < i; ++j) {
-        const double entry = scale * normals[static_cast<std::size_t>(i)].dot(normals[static_cast<std::size_t>(j)]);
+        const double entry = scale * normals[i].dot(normals[j]);
         entries.put(v[i], v[j], entry);
         entries.put(v[j], v[i], entry);
         entries.put(v[i], v[i], -entry);

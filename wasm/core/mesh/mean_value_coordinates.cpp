@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 
@@ -81,11 +81,11 @@ Vector mean_value_coordinates(const ConstPoints& positions, const ConstTriangles
                        positions.row(triangles(t, 2)).transpose());
     if (share.contains) {
       sums[0].setZero();
-      for (int k = 0; k < 3; ++k) sums[0][triangles(t, k)] += share.weights[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k) sums[0][triangles(t, k)] += share.weights[k];
       return sums[0];
     }
     Vector& sum = sums[share.side < 0];
-    for (int k = 0; k < 3; ++k) sum[triangles(t, k)] += share.weights[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) sum[triangles(t, k)] += share.weights[k];
   }
   // Along every ray the surface shows its sides in turn, the first hit counting most: inside the inner sides win.
   const double inner = sums[0].sum(), outer = sums[1].sum();
@@ -94,7 +94,7 @@ Vector mean_value_coordinates(const ConstPoints& positions, const ConstTriangles
 }
 
 MeanValueField::MeanValueField(const ConstPoints& positions, const ConstTriangles& triangles, const MatrixF& values)
-    : positions_(positions), triangles_(triangles), values_(values), sums_(static_cast<std::size_t>(values.cols())) {
+    : positions_(positions), triangles_(triangles), values_(values), sums_(values.cols()) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   order_.resize(count);
   for (std::size_t t = 0; t < count; ++t) order_[t] = static_cast<std::uint32_t>(t);
@@ -116,7 +116,7 @@ void MeanValueField::build(std::uint32_t* first, std::uint32_t* last) {
     int axis = 0;
     (high - low).maxCoeff(&axis);
     std::uint32_t* const middle = first + (last - first) / 2;
-    split(first, middle, last, [&](std::uint32_t s, std::uint32_t t) {
+    nth_element(first, middle, last, [&](std::uint32_t s, std::uint32_t t) {
       const double x = corner(s, 0)[axis] + corner(s, 1)[axis] + corner(s, 2)[axis];
       const double y = corner(t, 0)[axis] + corner(t, 1)[axis] + corner(t, 2)[axis];
       return x < y || (x == y && s < t);
@@ -189,7 +189,7 @@ double MeanValueField::gather(const Vector3& point, int side, double& other, boo
       }
       const float sign = share.contains ? 1.0F : static_cast<float>(side);
       for (int c = 0; c < 3; ++c) {
-        const auto weight = static_cast<float>(share.weights[static_cast<std::size_t>(c)]) * sign;
+        const auto weight = static_cast<float>(share.weights[c]) * sign;
         const float* const value = values_.data() + triangles_(t, c) * m;
         for (Index f = 0; f < m; ++f) sums[f] += weight * value[f];
         total += weight;
@@ -206,7 +206,7 @@ void MeanValueField::evaluate(const Vector3& point, float* out) {
   double other = 0, total = gather(point, 1, other, on_surface);
   if (!on_surface && other > total) total = gather(point, -1, other, on_surface);
   const auto scale = static_cast<float>(total > 0 ? 1 / total : 0);
-  for (Index f = 0; f < columns(); ++f) out[f] = scale * sums_[static_cast<std::size_t>(f)];
+  for (Index f = 0; f < columns(); ++f) out[f] = scale * sums_[f];
 }
 
 }  // namespace handlebody

@@ -77,9 +77,9 @@ Result<Done> check_volumes(const SimplexMesh& mesh) {
   return Done{};
 }
 
-Numbers connected_parts(const SimplexMesh& mesh) {
+Indices connected_parts(const SimplexMesh& mesh) {
   const auto n = static_cast<std::size_t>(mesh.positions.rows());
-  Numbers root(n);
+  Indices root(n);
   for (std::size_t v = 0; v < n; ++v) root[v] = static_cast<std::uint32_t>(v);
   const auto find = [&root](std::uint32_t v) {
     while (root[v] != v) v = root[v] = root[root[v]];
@@ -92,7 +92,7 @@ Numbers connected_parts(const SimplexMesh& mesh) {
     }
   }
   std::uint32_t count = 0;
-  Numbers part(n);
+  Indices part(n);
   for (std::size_t v = 0; v < n; ++v) {
     const std::uint32_t first = find(static_cast<std::uint32_t>(v));
     part[v] = first == v ? count++ : part[first];

@@ -1,8 +1,8 @@
 // Triangles in the plane or in space, or tetrahedra: what finite elements are made on.
 #pragma once
 
-#include "core/numerics/result.hpp"
-#include "core/numerics/sort.hpp"
+#include "core/errors/result.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -28,6 +28,6 @@ Result<Done> check_volumes(const SimplexMesh& mesh);
 
 /** The number of each vertex's connected part, counted from 0 in the order of their first vertices; one in no simplex is a part of
  * its own. */
-Numbers connected_parts(const SimplexMesh& mesh);
+Indices connected_parts(const SimplexMesh& mesh);
 
 }  // namespace handlebody

@@ -21,7 +21,7 @@ SurfaceGeodesics::SurfaceGeodesics(const ConstPoints& positions, const ConstTria
   for (std::size_t c = 0; c < count; ++c) ++starts_[corners[c] + 1];
   for (std::size_t v = 1; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
   around_.resize(count);
-  Numbers filled(starts_.begin(), starts_.end() - 1);
+  Indices filled(starts_.begin(), starts_.end() - 1);
   for (std::size_t c = 0; c < count; ++c) around_[filled[corners[c]]++] = static_cast<std::uint32_t>(c / 3);
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -30,7 +30,7 @@ class SurfaceGeodesics {
 
   Points positions_;
   Triangles triangles_;
-  Numbers starts_, around_;  // the triangles around each vertex
+  Indices starts_, around_;  // the triangles around each vertex
   std::vector<Trial> heap_;
 };
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
@@ -71,7 +71,7 @@ TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& t
     triangles_.push_back({a, b, c, (b - a).cross(c - a).norm() <= flat_tolerance * longest2});
   }
   if (count == 0) return;
-  Numbers order(count);
+  Indices order(count);
   std::iota(order.begin(), order.end(), 0u);
   arrange(order.data(), order.data() + count);
   std::vector<Triangle> arranged;
@@ -90,7 +90,7 @@ void TriangleTree::arrange(std::uint32_t* first, std::uint32_t* last) const {
   int axis = 0;
   (box.high - box.low).maxCoeff(&axis);
   std::uint32_t* middle = first + (last - first) / 2;
-  split(first, middle, last, [&](std::uint32_t s, std::uint32_t t) {
+  nth_element(first, middle, last, [&](std::uint32_t s, std::uint32_t t) {
     const double u = triangles_[s].centroid3()[axis], v = triangles_[t].centroid3()[axis];
     return u < v || (u == v && s < t);
   });

@@ -1,12 +1,12 @@
 #include "core/mesh/weld.hpp"
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 
 Weld weld_vertices(const ConstPoints& positions) {
   const auto count = static_cast<std::uint32_t>(positions.rows());
-  const Numbers order = sorted_indices(count, [&](std::uint32_t a, std::uint32_t b) {
+  const Indices order = sorted_indices(count, [&](std::uint32_t a, std::uint32_t b) {
     for (int axis = 0; axis < 3; ++axis) {
       if (positions(a, axis) != positions(b, axis)) return positions(a, axis) < positions(b, axis);
     }

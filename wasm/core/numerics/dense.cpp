@@ -186,7 +186,7 @@ void solve_cholesky(const MatrixXd& factor, MatrixXd& b) {
 void factor_lu(MatrixXd& a, std::vector<Index>& pivots) {
   constexpr Index width = 16;  // columns a panel
   const Index n = a.rows();
-  pivots.resize(static_cast<std::size_t>(n));
+  pivots.resize(n);
   // What the columns from `first` on, factored up to `done`, do to column j.
   const auto eliminate = [&](Index first, Index done, Index j) {
     for (Index k = first; k < done; ++k) add_columns(&a(k, j) + 1, done - 1 - k, &a(k, k) + 1, n, &a(k, j), 1, 1, -1);
@@ -200,7 +200,7 @@ void factor_lu(MatrixXd& a, std::vector<Index>& pivots) {
       for (Index i = j + 1; i < n; ++i) {
         if (std::abs(a(i, j)) > std::abs(a(pivot, j))) pivot = i;
       }
-      pivots[static_cast<std::size_t>(j)] = pivot;
+      pivots[j] = pivot;
       for (Index k = 0; k < n; ++k) std::swap(a(j, k), a(pivot, k));
       for (Index i = j + 1; i < n; ++i) a(i, j) /= a(j, j);
     }
@@ -217,12 +217,12 @@ void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd
   for (Index j = n; j-- > 0;) {  // b ← b L⁻¹
     add_columns(&b(0, j), rows, b.data() + rows * (j + 1), rows, factor.data() + n * j + j + 1, 1, n - 1 - j, -1);
   }
-  for (Index j = n; j-- > 0;) b.col(j).swap(b.col(pivots[static_cast<std::size_t>(j)]));
+  for (Index j = n; j-- > 0;) b.col(j).swap(b.col(pivots[j]));
 }
 
 void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, double* x) {
   const Index n = factor.rows();
-  for (Index j = 0; j < n; ++j) std::swap(x[j], x[pivots[static_cast<std::size_t>(j)]]);
+  for (Index j = 0; j < n; ++j) std::swap(x[j], x[pivots[j]]);
   for (Index j = 0; j < n; ++j) add_columns(x + j + 1, n - 1 - j, factor.data() + n * j + j + 1, n, x + j, 1, 1, -1);
   for (Index j = n; j-- > 0;) {
     x[j] /= factor(j, j);

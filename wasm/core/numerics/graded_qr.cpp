@@ -19,8 +19,8 @@ GradedQr::GradedQr(Index most_rows, Index columns)
       tau_(columns),
       size_(columns),
       y_(most_rows),
-      row_of_(static_cast<std::size_t>(most_rows)),
-      column_of_(static_cast<std::size_t>(columns)) {}
+      row_of_(most_rows),
+      column_of_(columns) {}
 
 void GradedQr::reset(Index rows) {
   rows_ = rows;
@@ -69,13 +69,13 @@ bool GradedQr::extend(Index end) {
 
 void GradedQr::solve_transposed(const double* b, double* x) {
   for (Index k = 0; k < rank_; ++k) {  // Rᵀ z = b
-    double rest = b[column_of_[static_cast<std::size_t>(k)]];
+    double rest = b[column_of_[k]];
     for (Index j = 0; j < k; ++j) rest -= a_(j, k) * y_[j];
     y_[k] = rest / a_(k, k);
   }
   std::fill(y_.data() + rank_, y_.data() + rows_, 0.0);
   for (Index k = rank_; k-- > 0;) reflect(k, y_.data());
-  for (Index i = 0; i < rows_; ++i) x[row_of_[static_cast<std::size_t>(i)]] = y_[i];
+  for (Index i = 0; i < rows_; ++i) x[row_of_[i]] = y_[i];
 }
 
 /** x ← (I − τ v vᵀ) x */
@@ -93,14 +93,14 @@ void GradedQr::swap_rows(Index i, Index k) {
   if (i == k) return;
   for (Index j = 0; j < a_.cols(); ++j) std::swap(a_(i, j), a_(k, j));
   std::swap(one_over_scale_[i], one_over_scale_[k]);
-  std::swap(row_of_[static_cast<std::size_t>(i)], row_of_[static_cast<std::size_t>(k)]);
+  std::swap(row_of_[i], row_of_[k]);
 }
 
 void GradedQr::swap_columns(Index j, Index k) {
   if (j == k) return;
   for (Index i = 0; i < rows_; ++i) std::swap(a_(i, j), a_(i, k));
   std::swap(size_[j], size_[k]);
-  std::swap(column_of_[static_cast<std::size_t>(j)], column_of_[static_cast<std::size_t>(k)]);
+  std::swap(column_of_[j], column_of_[k]);
 }
 
 bool GradedQr::independent(Index column) const {

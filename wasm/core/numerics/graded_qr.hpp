@@ -4,7 +4,7 @@
 // former ones can be left out. Made once and filled again and again without allocating.
 #pragma once
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
@@ -36,7 +36,7 @@ class GradedQr {
 
   MatrixXd a_;  // on and above the diagonal R, below it the reflectors 1, v₁, v₂ …
   Vector one_over_scale_, tau_, size_, y_;
-  Numbers row_of_, column_of_;  // the caller's numbers
+  Indices row_of_, column_of_;  // the caller's numbers
   Index rows_ = 0, rank_ = 0;
 };
 

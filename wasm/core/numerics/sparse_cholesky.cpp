@@ -11,7 +11,6 @@ namespace handlebody {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 constexpr double entry_bytes = sizeof(double) + sizeof(std::uint32_t);
 constexpr int together = 8;     // columns solved at once
 constexpr int most_merged = 4;  // columns of L taken at once
@@ -27,10 +26,10 @@ void subtract(double* y, const std::uint32_t* below, std::uint32_t count, const 
 
 }  // namespace
 
-Numbers minimum_degree_order(const SparseMatrix& a) {
+Indices minimum_degree_order(const SparseMatrix& a) {
   const Index n = a.rows();
   Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(n, n);
-  pattern.resizeNonZeros(static_cast<Index>(a.columns.size()));
+  pattern.resizeNonZeros(std::ssize(a.columns));
   std::copy(a.starts.begin(), a.starts.end(), pattern.outerIndexPtr());
   std::copy(a.columns.begin(), a.columns.end(), pattern.innerIndexPtr());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
@@ -42,7 +41,7 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
   return analyze(a, minimum_degree_order(a));
 }
 
-Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Numbers order, double most_bytes) {
+Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatrix& a, Indices order, double most_bytes) {
   std::unique_ptr<SparseCholesky> made(new SparseCholesky);
   SparseCholesky& result = *made;
   const auto n = static_cast<std::size_t>(a.rows());
@@ -51,8 +50,8 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
   for (std::size_t k = 0; k < n; ++k) result.place_[result.order_[k]] = static_cast<std::uint32_t>(k);
 
   // Row k of L has an entry wherever the tree leads from an entry of A's row k up to k.
-  Numbers &parent = result.parent_, counts(n, 0), seen(n, none);
-  parent.assign(n, none);
+  Indices &parent = result.parent_, counts(n, 0), seen(n, no_index);
+  parent.assign(n, no_index);
   for (std::uint32_t k = 0; k < n; ++k) {
     seen[k] = k;
     const std::uint32_t row = result.order_[k];
@@ -60,7 +59,7 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
       std::uint32_t i = result.place_[a.columns[e]];
       if (i > k) continue;
       for (; seen[i] != k; i = parent[i]) {
-        if (parent[i] == none) parent[i] = k;
+        if (parent[i] == no_index) parent[i] = k;
         ++counts[i];
         seen[i] = k;
       }
@@ -96,12 +95,12 @@ double SparseCholesky::factor_part(const SparseMatrix& a, double multiplications
   const auto n = static_cast<std::uint32_t>(order_.size());
   if (row_ == 0) {
     filled_.assign(starts_.begin(), starts_.end() - 1);
-    seen_.assign(n, none);
+    seen_.assign(n, no_index);
     path_.resize(n);
     done_ = 0;
     std::fill(work_.begin(), work_.begin() + n, 0.0);
   }
-  Numbers &filled = filled_, &seen = seen_, &path = path_;
+  Indices &filled = filled_, &seen = seen_, &path = path_;
   double *const y = work_.data(), *const inverse = y + n;
   const double enough = done_ + multiplications;
   for (std::uint32_t k = row_; k < n; ++k) {

@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/sparse_matrix.hpp"
 
 namespace handlebody {
 
 /** The order in which a symmetric matrix is eliminated with little fill; rows of a submatrix keep theirs well. */
-Numbers minimum_degree_order(const SparseMatrix& a);
+Indices minimum_degree_order(const SparseMatrix& a);
 
 class SparseCholesky {
  public:
@@ -23,7 +23,7 @@ class SparseCholesky {
 
   /** The same in a given order: row order[0] is eliminated first. And with a limit of one's own, for a caller of several factors.
    */
-  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Numbers order, double most_bytes = 1.5 * (1 << 30));
+  static Result<std::unique_ptr<SparseCholesky>> analyze(const SparseMatrix& a, Indices order, double most_bytes = 1.5 * (1 << 30));
 
   /** Factors a matrix with the pattern that was analyzed. False, and no factor, where it is not positive definite to working
    * precision. */
@@ -36,7 +36,7 @@ class SparseCholesky {
   /** x ← A⁻¹ x, rows() × `width`, row-major: columns are solved together. Not after factor() returned false. */
   void solve(double* x, Index width = 1);
 
-  Index rows() const { return static_cast<Index>(order_.size()); }
+  Index rows() const { return std::ssize(order_); }
 
   /** Multiplications that a factorization takes, and that solving takes a column. */
   double factor_cost() const { return factor_cost_; }
@@ -49,9 +49,9 @@ class SparseCholesky {
   template <int width>
   void solve_columns(double* x, Index stride, int count);
 
-  Numbers order_, place_;   // order_[k]: the row that is eliminated as number k; place_ is its inverse
-  Numbers parent_;          // elimination tree, of places
-  Numbers starts_, below_;  // L by columns: the places below the diagonal
+  Indices order_, place_;   // order_[k]: the row that is eliminated as number k; place_ is its inverse
+  Indices parent_;          // elimination tree, of places
+  Indices starts_, below_;  // L by columns: the places below the diagonal
   std::vector<double> factor_, pivots_;
   std::vector<unsigned char> merges_;  // column k has the pattern of the one before, but for k
   std::vector<double> work_;
@@ -59,7 +59,7 @@ class SparseCholesky {
 
   // A factorization under way: the next row, the entries of each column so far, marks and a stack, multiplications done.
   std::uint32_t row_ = 0;
-  Numbers filled_, seen_, path_;
+  Indices filled_, seen_, path_;
   double done_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace handlebody {
 namespace {
 
 /** Turns counts at i + 1 into starts. */
-void accumulate(Numbers& starts) {
+void accumulate(Indices& starts) {
   for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
 }
 
@@ -20,7 +20,7 @@ SparseMatrix transposed(const SparseMatrix& a) {
   result.values.resize(a.values.size());
   for (const std::uint32_t column : a.columns) ++result.starts[column + 1];
   accumulate(result.starts);
-  Numbers next(result.starts.begin(), result.starts.end() - 1);
+  Indices next(result.starts.begin(), result.starts.end() - 1);
   for (std::size_t row = 0; row < n; ++row) {
     for (std::uint32_t k = a.starts[row]; k < a.starts[row + 1]; ++k) {
       const std::uint32_t to = next[a.columns[k]]++;
@@ -37,7 +37,7 @@ void SparseMatrix::multiply(const double* x, Index width, double* out) const {
   const Index n = rows();
   std::fill(out, out + n * width, 0.0);
   for (Index row = 0; row < n; ++row, out += width) {
-    for (std::uint32_t k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) {
+    for (std::uint32_t k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) {
       const double value = values[k];
       const double* from = x + columns[k] * width;
       for (Index j = 0; j < width; ++j) out[j] += value * from[j];
@@ -47,13 +47,12 @@ void SparseMatrix::multiply(const double* x, Index width, double* out) const {
 
 double SparseMatrix::row_times(Index row, const double* x) const {
   double sum = 0;
-  for (std::uint32_t k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
-    sum += values[k] * x[columns[k]];
+  for (std::uint32_t k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) sum += values[k] * x[columns[k]];
   return sum;
 }
 
 double SparseMatrix::diagonal(Index row) const {
-  for (std::uint32_t k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
+  for (std::uint32_t k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
     if (columns[k] == static_cast<std::uint32_t>(row)) return values[k];
   return 0;
 }
@@ -78,7 +77,7 @@ SparseMatrix SparseEntries::matrix() const {
   rows.values.resize(values_.size());
   for (const std::uint32_t row : row_of_) ++rows.starts[row + 1];
   accumulate(rows.starts);
-  Numbers next(rows.starts.begin(), rows.starts.end() - 1);
+  Indices next(rows.starts.begin(), rows.starts.end() - 1);
   for (std::size_t k = 0; k < values_.size(); ++k) {
     const std::uint32_t to = next[row_of_[k]]++;
     rows.columns[to] = column_of_[k];
@@ -104,11 +103,10 @@ SparseMatrix SparseEntries::matrix() const {
 }
 
 SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const SparseMatrix& b) {
-  constexpr std::uint32_t none = 0xffffffff;
   const auto n = static_cast<std::size_t>(a.rows());
   SparseMatrix product;
   product.starts.reserve(n + 1);
-  Numbers place(n, none);  // of a column in the row that is being made
+  Indices place(n, no_index);  // of a column in the row that is being made
   for (std::size_t row = 0; row < n; ++row) {
     const auto first = static_cast<std::uint32_t>(product.columns.size());
     for (std::uint32_t k = a.starts[row]; k < a.starts[row + 1]; ++k) {
@@ -116,7 +114,7 @@ SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const Spa
       const double factor = a.values[k] * d[middle];
       for (std::uint32_t m = b.starts[middle]; m < b.starts[middle + 1]; ++m) {
         const std::uint32_t column = b.columns[m];
-        if (place[column] == none || place[column] < first) {
+        if (place[column] == no_index || place[column] < first) {
           place[column] = static_cast<std::uint32_t>(product.columns.size());
           product.columns.push_back(column);
           product.values.push_back(factor * b.values[m]);
@@ -130,9 +128,9 @@ SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const Spa
   return transposed(product);  // its own transpose, but in order
 }
 
-SparseMatrix submatrix(const SparseMatrix& a, const Numbers& number_of, Index count) {
+SparseMatrix submatrix(const SparseMatrix& a, const Indices& number_of, Index count) {
   const auto size = static_cast<std::uint32_t>(count);
-  Numbers row_of(size);
+  Indices row_of(size);
   bool in_order = true;
   for (std::uint32_t row = 0, last = 0; row < number_of.size(); ++row) {
     if (number_of[row] >= size) continue;

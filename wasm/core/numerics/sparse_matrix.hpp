@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/numerics/sort.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {
 
 /** Row i's entries are columns[starts[i]] … columns[starts[i + 1] − 1], ascending, each with its value. */
 struct SparseMatrix {
-  Numbers starts{0}, columns;
+  Indices starts{0}, columns;
   std::vector<double> values;
 
-  Index rows() const { return static_cast<Index>(starts.size()) - 1; }
+  Index rows() const { return std::ssize(starts) - 1; }
 
   /** out = A x of row-major x, rows() × `width`. Allocates nothing. */
   void multiply(const double* x, Index width, double* out) const;
@@ -36,7 +36,7 @@ class SparseEntries {
 
  private:
   Index rows_;
-  Numbers row_of_, column_of_;
+  Indices row_of_, column_of_;
   std::vector<double> values_;
 };
 
@@ -44,6 +44,6 @@ class SparseEntries {
 SparseMatrix symmetric_product(const SparseMatrix& a, const Vector& d, const SparseMatrix& b);
 
 /** The rows and columns i of a symmetric A that have a number below `count`, at that number: a permutation where all have one. */
-SparseMatrix submatrix(const SparseMatrix& a, const Numbers& number_of, Index count);
+SparseMatrix submatrix(const SparseMatrix& a, const Indices& number_of, Index count);
 
 }  // namespace handlebody

@@ -7,7 +7,7 @@
 
 namespace handlebody {
 
-/** Numbers are part of the C interface. */
+/** Indices are part of the C interface. */
 enum class PoseSpaceMethod : unsigned {
   cardinal = 0,    // RBF with a polynomial tail of degree 0 or 1 (Shape by Example, §2.2)
   normalized = 1,  // normalized RBF (the course's recommendation, §4.4.1); a tail is possible but not needed

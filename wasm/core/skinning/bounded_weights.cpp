@@ -19,7 +19,6 @@ namespace handlebody {
 // count).
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 constexpr double relaxation = 1.6, stiffness = 0.3;
 constexpr int least_sweeps = 40, most_newton_steps = 30, most_conjugate_steps = 60;
 constexpr double most_factor_bytes = 1024.0 * 1024 * 1024;
@@ -66,24 +65,24 @@ Result<std::unique_ptr<BoundedWeights>> BoundedWeights::create(const SparseMatri
 
   // Free vertices in the order of elimination, so that every handle's own equations, which are some of these, are in a good order
   // too.
-  Numbers free(static_cast<std::size_t>(n), 0);
-  for (const std::uint32_t vertex : held.vertices) free[vertex] = none;
+  Indices free(n, 0);
+  for (const std::uint32_t vertex : held.vertices) free[vertex] = no_index;
   std::uint32_t count = 0;
   for (std::uint32_t& number : free)
-    if (number != none) number = count++;
-  const Numbers order = minimum_degree_order(submatrix(energy, free, count));
-  Numbers place(count);
+    if (number != no_index) number = count++;
+  const Indices order = minimum_degree_order(submatrix(energy, free, count));
+  Indices place(count);
   for (std::uint32_t k = 0; k < count; ++k) place[order[k]] = k;
   self.number_of_ = free;
   for (std::uint32_t& number : self.number_of_)
-    if (number != none) number = place[number];
+    if (number != no_index) number = place[number];
   self.energy_ = submatrix(energy, self.number_of_, count);
 
   // B's part between free and held vertices, and among these.
   const Index m = count;
   Matrix fixed = self.start_, image(n, h);
   for (Index i = 0; i < n; ++i)
-    if (free[static_cast<std::size_t>(i)] != none) fixed.row(i).setZero();
+    if (free[i] != no_index) fixed.row(i).setZero();
   energy.multiply(fixed.data(), h, image.data());
   self.held_energy_ = dot(fixed.data(), image.data(), n * h) / 2;
   self.load_.resize(m, h);
@@ -93,8 +92,8 @@ Result<std::unique_ptr<BoundedWeights>> BoundedWeights::create(const SparseMatri
   double square = 0, trace = 0;
   for (Index i = 0; i < n; ++i) {
     square += mass[i] * self.start_.row(i).squaredNorm();
-    const std::uint32_t k = self.number_of_[static_cast<std::size_t>(i)];
-    if (k == none) continue;
+    const std::uint32_t k = self.number_of_[i];
+    if (k == no_index) continue;
     self.load_.row(k) = image.row(i);
     self.x_.row(k) = self.start_.row(i);
     self.diagonal_[k] = energy.diagonal(i);
@@ -117,9 +116,9 @@ Result<std::unique_ptr<BoundedWeights>> BoundedWeights::create(const SparseMatri
     self.penalty_[k] = stiffness * std::sqrt(softness * self.penalty_[k]);
     const auto row = static_cast<std::size_t>(k);
     for (std::uint32_t e = penalized.starts[row]; e < penalized.starts[row + 1]; ++e)
-      if (penalized.columns[e] == k) penalized.values[e] += self.penalty_[k];
+      if (penalized.columns[e] == row) penalized.values[e] += self.penalty_[k];
   }
-  Numbers natural(count);
+  Indices natural(count);
   for (std::uint32_t k = 0; k < count; ++k) natural[k] = k;
   auto analyzed = SparseCholesky::analyze(penalized, std::move(natural));
   if (!analyzed) return analyzed.error();
@@ -222,13 +221,13 @@ void BoundedWeights::start_newton() {
   const auto rows = static_cast<std::size_t>(m);
   active_.resize(rows * static_cast<std::size_t>(h));
   shared_.resize(rows);
-  rows_.resize(static_cast<std::size_t>(h));
-  columns_.resize(static_cast<std::size_t>(h));
+  rows_.resize(h);
+  columns_.resize(h);
   for (Vector* vector : {&multiplier_, &residual_, &direction_, &image_, &column_}) vector->resize(m);
   Matrix projected = s_;
   for (Index i = 0; i < m; ++i) {
     project(&projected(i, 0), h);
-    for (Index j = 0; j < h; ++j) active_[static_cast<std::size_t>(i * h + j)] = projected(i, j) <= 0;
+    for (Index j = 0; j < h; ++j) active_[i * h + j] = projected(i, j) <= 0;
   }
   find_multipliers();
   newton_step_ = 0;
@@ -241,7 +240,7 @@ void BoundedWeights::start_newton() {
 void BoundedWeights::find_multipliers() {
   const Index m = x_.rows(), h = x_.cols();
   for (Index i = 0; i < m; ++i) {
-    const unsigned char* active = &active_[static_cast<std::size_t>(i * h)];
+    const unsigned char* active = &active_[i * h];
     double sum = 0;
     int count = 0;
     for (Index j = 0; j < h; ++j) {
@@ -250,24 +249,24 @@ void BoundedWeights::find_multipliers() {
       ++count;
     }
     multiplier_[i] = -sum / count;
-    shared_[static_cast<std::size_t>(i)] = count > 1;
+    shared_[i] = count > 1;
   }
 }
 
 /** Factors B among the vertices where this handle's weight is neither 0 nor 1, unless they are the same as before. */
 bool BoundedWeights::factor_column(Index handle) {
   const Index m = x_.rows(), h = x_.cols();
-  Numbers number(static_cast<std::size_t>(m), none), rows;
+  Indices number(m, no_index), rows;
   for (Index i = 0; i < m; ++i) {
-    if (!shared_[static_cast<std::size_t>(i)] || active_[static_cast<std::size_t>(i * h + handle)]) continue;
-    number[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(rows.size());
+    if (!shared_[i] || active_[i * h + handle]) continue;
+    number[i] = static_cast<std::uint32_t>(rows.size());
     rows.push_back(static_cast<std::uint32_t>(i));
   }
-  auto& column = columns_[static_cast<std::size_t>(handle)];
-  Numbers& known = rows_[static_cast<std::size_t>(handle)];
+  auto& column = columns_[handle];
+  Indices& known = rows_[handle];
   if (column && rows == known) return true;
-  const SparseMatrix part = submatrix(energy_, number, static_cast<Index>(rows.size()));
-  Numbers natural(rows.size());
+  const SparseMatrix part = submatrix(energy_, number, std::ssize(rows));
+  Indices natural(rows.size());
   for (std::uint32_t k = 0; k < natural.size(); ++k) natural[k] = k;
   auto analyzed = SparseCholesky::analyze(part, std::move(natural));
   if (!analyzed) return false;
@@ -279,11 +278,11 @@ bool BoundedWeights::factor_column(Index handle) {
 /** solution(i, j) ← Bⱼ⁻¹ right(i, j), or of one right-hand side for all handles where `stride` is 0; other entries stay. */
 void BoundedWeights::solve_columns(const double* right, Index stride, Matrix& solution) {
   for (Index j = 0; j < x_.cols(); ++j) {
-    const Numbers& rows = rows_[static_cast<std::size_t>(j)];
+    const Indices& rows = rows_[j];
     const double* from = stride ? right + j : right;
     const Index step = std::max<Index>(stride, 1);
     for (std::size_t k = 0; k < rows.size(); ++k) column_[static_cast<Index>(k)] = from[rows[k] * step];
-    columns_[static_cast<std::size_t>(j)]->solve(column_.data());
+    columns_[j]->solve(column_.data());
     for (std::size_t k = 0; k < rows.size(); ++k) solution(rows[k], j) = column_[static_cast<Index>(k)];
   }
 }
@@ -294,13 +293,12 @@ void BoundedWeights::solve_columns(const double* right, Index stride, Matrix& so
 void BoundedWeights::newton_step() {
   const Index m = x_.rows(), h = x_.cols();
   for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < h; ++j)
-      x_(i, j) = !shared_[static_cast<std::size_t>(i)] && !active_[static_cast<std::size_t>(i * h + j)] ? 1 : 0;
+    for (Index j = 0; j < h; ++j) x_(i, j) = !shared_[i] && !active_[i * h + j] ? 1 : 0;
   energy_.multiply(x_.data(), h, forces_.data());
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < h; ++j) forces_(i, j) = -forces_(i, j) - load_(i, j) - multiplier_[i];
   solve_columns(forces_.data(), h, x_);
-  for (Index i = 0; i < m; ++i) residual_[i] = shared_[static_cast<std::size_t>(i)] ? x_.row(i).sum() - 1 : 0;
+  for (Index i = 0; i < m; ++i) residual_[i] = shared_[i] ? x_.row(i).sum() - 1 : 0;
 
   const double enough = 0.01 * options_.tolerance * report_.energy;
   double before = 0;
@@ -310,7 +308,7 @@ void BoundedWeights::newton_step() {
     if (!(size > enough)) break;
     for (Index i = 0; i < m; ++i) {
       const double along = round > 0 ? size / before * direction_[i] : 0;
-      direction_[i] = shared_[static_cast<std::size_t>(i)] ? image_[i] + along : 0;
+      direction_[i] = shared_[i] ? image_[i] + along : 0;
     }
     before = size;
     forces_.setZero();
@@ -350,7 +348,7 @@ Index BoundedWeights::update_active() {
   for (Index i = 0; i < m; ++i) {
     const double depth = std::sqrt(pull / diagonal_[i]);
     for (Index j = 0; j < h; ++j) {
-      unsigned char& active = active_[static_cast<std::size_t>(i * h + j)];
+      unsigned char& active = active_[i * h + j];
       const unsigned char now = active ? forces_(i, j) + multiplier_[i] > -pull : x_(i, j) < -depth;
       changed += now != active;
       active = now;
@@ -362,8 +360,8 @@ Index BoundedWeights::update_active() {
 Matrix BoundedWeights::weights() const {
   Matrix weights = start_;
   for (Index i = 0; i < weights.rows(); ++i) {
-    const std::uint32_t k = number_of_[static_cast<std::size_t>(i)];
-    if (k != none) weights.row(i) = best_.row(k);
+    const std::uint32_t k = number_of_[i];
+    if (k != no_index) weights.row(i) = best_.row(k);
   }
   return weights;
 }

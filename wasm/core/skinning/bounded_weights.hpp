@@ -70,7 +70,7 @@ class BoundedWeights {
   bool newton_fits_ = false;  // in memory, with a factor a handle
 
   // Free vertices are numbered in the order of elimination.
-  Numbers number_of_;
+  Indices number_of_;
   Matrix start_;  // of all vertices
   SparseMatrix energy_;
   Vector diagonal_;
@@ -86,7 +86,7 @@ class BoundedWeights {
 
   std::vector<unsigned char> active_;  // n × handles: wᵢⱼ is held at 0
   std::vector<unsigned char> shared_;  // two handles or more are not
-  std::vector<Numbers> rows_;          // of each handle: shared, not active
+  std::vector<Indices> rows_;          // of each handle: shared, not active
   std::vector<std::unique_ptr<SparseCholesky>> columns_;
   Vector multiplier_;  // of Σⱼ wᵢⱼ = 1
   Vector residual_, direction_, image_, column_;

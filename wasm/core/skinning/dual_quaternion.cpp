@@ -35,14 +35,14 @@ class DualQuaternion final : public Skin {
 
 DualQuaternion::DualQuaternion(const WeightedShape& shape, std::vector<std::uint32_t> pivots)
     : Skin(shape.vertices, shape.dimension, shape.handles),
-      regions_(static_cast<std::size_t>(handles_ * 3)),
-      rows_(static_cast<std::size_t>(vertices_ * (dimension_ + handles_))),
+      regions_(handles_ * 3),
+      rows_(vertices_ * (dimension_ + handles_)),
       pivots_(std::move(pivots)),
-      motions_(static_cast<std::size_t>(handles_ * (dimension_ - 1) * 4)),
-      sides_(static_cast<std::size_t>(handles_ * handles_)) {
+      motions_(handles_ * (dimension_ - 1) * 4),
+      sides_(handles_ * handles_) {
   const Index d = dimension_, h = handles_;
   box_center(shape.positions, vertices_, d, center_);
-  std::vector<double> influence(static_cast<std::size_t>(h));
+  std::vector<double> influence(h);
   float* row = rows_.data();
   const double *position = shape.positions, *weights = shape.weights;
   for (Index i = 0; i < vertices_; ++i, position += d, weights += h) {
@@ -156,7 +156,7 @@ Result<std::unique_ptr<Skin>> dual_quaternion_blend(const WeightedShape& shape) 
   const Index n = shape.vertices, h = shape.handles;
   const double floats = static_cast<double>(n) * static_cast<double>(4 + h) + static_cast<double>(h) * static_cast<double>(14 + h);
   if (auto fine = check_shape(shape, floats); !fine) return fine.error();
-  std::vector<std::uint32_t> pivots(static_cast<std::size_t>(n));
+  std::vector<std::uint32_t> pivots(n);
   for (Index i = 0; i < n; ++i) {
     const double* weights = shape.weights + i * h;
     Index pivot = 0;

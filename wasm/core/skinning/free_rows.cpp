@@ -6,17 +6,17 @@
 
 namespace handlebody {
 
-Result<std::unique_ptr<FreeRows>> FreeRows::create(SparseMatrix q, const Numbers& owner_of, Index rows_per_vertex) {
+Result<std::unique_ptr<FreeRows>> FreeRows::create(SparseMatrix q, const Indices& owner_of, Index rows_per_vertex) {
   std::unique_ptr<FreeRows> made(new FreeRows);
   FreeRows& result = *made;
   result.width_ = 2 / rows_per_vertex;
-  Numbers number_of(static_cast<std::size_t>(q.rows()), no_owner);
+  Indices number_of(q.rows(), no_index);
   for (std::size_t row = 0; row < number_of.size(); ++row) {
-    if (owner_of[row / static_cast<std::size_t>(rows_per_vertex)] != no_owner) continue;
+    if (owner_of[row / static_cast<std::size_t>(rows_per_vertex)] != no_index) continue;
     number_of[row] = static_cast<std::uint32_t>(result.rows_.size());
     result.rows_.push_back(static_cast<std::uint32_t>(row));
   }
-  const SparseMatrix among_free = submatrix(q, number_of, static_cast<Index>(result.rows_.size()));
+  const SparseMatrix among_free = submatrix(q, number_of, std::ssize(result.rows_));
   auto analyzed = SparseCholesky::analyze(among_free);
   if (!analyzed) return analyzed.error();
   result.cholesky_ = std::move(*analyzed);

@@ -8,14 +8,12 @@
 
 namespace handlebody {
 
-constexpr std::uint32_t no_owner = 0xffffffff;
-
 class FreeRows {
  public:
   /** `q` symmetric, of n vertices: with 1 row a vertex its two coordinates are unknowns of the same equations, with 2 rows x and y
-   * have their own. A vertex is free where `owner_of` is `no_owner`. Fails with OUT_OF_MEMORY, or with SYSTEM_SINGULAR where q does
+   * have their own. A vertex is free where `owner_of` is `no_index`. Fails with OUT_OF_MEMORY, or with SYSTEM_SINGULAR where q does
    * not determine the free ones. */
-  static Result<std::unique_ptr<FreeRows>> create(SparseMatrix q, const Numbers& owner_of, Index rows_per_vertex);
+  static Result<std::unique_ptr<FreeRows>> create(SparseMatrix q, const Indices& owner_of, Index rows_per_vertex);
 
   /** Gives the free rows of u (n×2) their values, whatever they were, under forces f (n×2) or none. Returns the largest change of a
    * number. Allocates nothing. */
@@ -29,7 +27,7 @@ class FreeRows {
 
   SparseMatrix q_;
   Index width_ = 2;  // numbers of u a row of q
-  Numbers rows_;     // that are free
+  Indices rows_;     // that are free
   std::unique_ptr<SparseCholesky> cholesky_;
   std::vector<double> product_, right_;
 };

@@ -5,7 +5,7 @@
 namespace handlebody {
 namespace {
 
-constexpr std::uint32_t several = no_owner - 1;
+constexpr std::uint32_t several = no_index - 1;
 
 }  // namespace
 
@@ -24,29 +24,29 @@ Result<HeldDeformation::Setup> HeldDeformation::set_up(SimplexMesh mesh, HeldVer
   if (auto checked = check_simplex_mesh(mesh); !checked) return checked.error();
   if (auto checked = check_volumes(mesh); !checked) return checked.error();
   const auto n = static_cast<std::size_t>(mesh.positions.rows());
-  const Numbers parts = connected_parts(mesh);
+  const Indices parts = connected_parts(mesh);
   HeldVertices given = held;
   const auto islands = complete(held, mesh, parts);
   if (!islands) return islands.error();
 
-  Numbers owner_of(n, no_owner), only_vertex(static_cast<std::size_t>(given.handle_count), no_owner);
+  Indices owner_of(n, no_index), only_vertex(given.handle_count, no_index);
   for (std::size_t k = 0; k < given.vertices.size(); ++k) {
     std::uint32_t& only = only_vertex[given.owners[k]];
-    only = only == no_owner || only == given.vertices[k] ? given.vertices[k] : several;
+    only = only == no_index || only == given.vertices[k] ? given.vertices[k] : several;
     owner_of[given.vertices[k]] = given.owners[k];
   }
-  Numbers around(n, no_owner);  // the one handle that a vertex is next to, or `several`
+  Indices around(n, no_index);  // the one handle that a vertex is next to, or `several`
   for (Index t = 0; t < mesh.simplices.rows(); ++t)
     for (Index k = 0; k < 3; ++k) {
       const std::uint32_t owner = owner_of[mesh.simplices(t, k)];
-      if (owner == no_owner || only_vertex[owner] == several) continue;
+      if (owner == no_index || only_vertex[owner] == several) continue;
       for (Index other = 0; other < 3; ++other) {
         std::uint32_t& next_to = around[mesh.simplices(t, other)];
-        next_to = next_to == no_owner || next_to == owner ? owner : several;
+        next_to = next_to == no_index || next_to == owner ? owner : several;
       }
     }
   for (std::size_t v = 0; v < n; ++v)
-    if (owner_of[v] == no_owner && around[v] != several) owner_of[v] = around[v];
+    if (owner_of[v] == no_index && around[v] != several) owner_of[v] = around[v];
   for (const Island& island : *islands)
     for (std::size_t v = island.first; v < n; ++v)
       if (parts[v] == parts[island.first]) owner_of[v] = island.handle;
@@ -57,13 +57,13 @@ HeldDeformation::HeldDeformation(Setup setup)
     : Skin(setup.mesh.positions.rows(), 2, setup.handles),
       mesh_(std::move(setup.mesh)),
       owner_of_(std::move(setup.owner_of)),
-      displacements_(static_cast<std::size_t>(2 * vertices_)) {}
+      displacements_(2 * vertices_) {}
 
 void HeldDeformation::move(float* out) {
   const double* const positions = mesh_.positions.data();
   double* const u = displacements_.data();
   for (Index v = 0; v < vertices_; ++v) {
-    if (owner_of_[v] == no_owner) continue;
+    if (owner_of_[v] == no_index) continue;
     const double *t = transforms_.data() + 6 * owner_of_[v], x = positions[2 * v], y = positions[2 * v + 1];
     u[2 * v] = (t[0] - 1) * x + t[1] * y + t[2];
     u[2 * v + 1] = t[3] * x + (t[4] - 1) * y + t[5];

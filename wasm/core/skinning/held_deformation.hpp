@@ -33,7 +33,7 @@ class HeldDeformation : public Skin {
  protected:
   struct Setup {
     SimplexMesh mesh;
-    Numbers owner_of;  // the handle that holds a vertex, or `no_owner`
+    Indices owner_of;  // the handle that holds a vertex, or `no_index`
     Index handles;
   };
 
@@ -47,7 +47,7 @@ class HeldDeformation : public Skin {
   virtual void minimize() = 0;
 
   SimplexMesh mesh_;
-  Numbers owner_of_;
+  Indices owner_of_;
   std::vector<double> displacements_;  // n×2
   DeformationReport report_;
   std::uint32_t most_iterations_ = 1;

@@ -7,15 +7,13 @@ namespace handlebody {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
-
-Result<Done> check(const HeldVertices& held, Index vertex_count, Numbers& owner_of) {
+Result<Done> check(const HeldVertices& held, Index vertex_count, Indices& owner_of) {
   if (held.handle_count == 0) {
     return Error(HB_ERROR_HANDLES_MISSING, {"There is no handle, so there is nothing that weights could belong to."},
                  {"Give one or more."});
   }
-  Numbers holds(static_cast<std::size_t>(held.handle_count), 0);
-  owner_of.assign(static_cast<std::size_t>(vertex_count), none);
+  Indices holds(held.handle_count, 0);
+  owner_of.assign(vertex_count, no_index);
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
     const std::uint32_t vertex = held.vertices[k], owner = held.owners[k];
     if (static_cast<Index>(owner) >= held.handle_count)
@@ -27,7 +25,7 @@ Result<Done> check(const HeldVertices& held, Index vertex_count, Numbers& owner_
                    {"Give a vertex number from 0 on."}, HB_CULPRIT_HANDLE, owner);
     }
     std::uint32_t& present = owner_of[vertex];
-    if (present != none && present != owner) {
+    if (present != no_index && present != owner) {
       return Error(HB_ERROR_HANDLE_CONFLICT, {"Handles ", present, " and ", owner, " both hold vertex ", vertex, "."},
                    {"Move one of them to another vertex, or refine the mesh there."}, HB_CULPRIT_HANDLE, owner);
     }
@@ -44,28 +42,28 @@ Result<Done> check(const HeldVertices& held, Index vertex_count, Numbers& owner_
 
 }  // namespace
 
-Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh, const Numbers& parts) {
+Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh, const Indices& parts) {
   const Index n = mesh.positions.rows();
-  Numbers owner_of;
+  Indices owner_of;
   if (auto checked = check(held, n, owner_of); !checked) return checked.error();
-  std::vector<Island> part_of(parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1, {none, 0, none});
+  std::vector<Island> part_of(parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1, {no_index, 0, no_index});
   held.vertices.clear();
   held.owners.clear();
   for (std::size_t v = 0; v < parts.size(); ++v) {
     Island& part = part_of[parts[v]];
     if (part.count++ == 0) part.first = static_cast<std::uint32_t>(v);
-    if (owner_of[v] == none) continue;
+    if (owner_of[v] == no_index) continue;
     part.handle = owner_of[v];
     held.vertices.push_back(static_cast<std::uint32_t>(v));
     held.owners.push_back(owner_of[v]);
   }
 
   std::vector<double> nearest(part_of.size(), std::numeric_limits<double>::infinity());
-  Numbers chosen(part_of.size(), none);
+  Indices chosen(part_of.size(), no_index);
   const std::size_t given = held.vertices.size();
   for (std::size_t v = 0; v < parts.size(); ++v) {
     const std::uint32_t part = parts[v];
-    if (part_of[part].handle != none) continue;
+    if (part_of[part].handle != no_index) continue;
     for (std::size_t k = 0; k < given; ++k) {
       const double distance = (mesh.positions.row(static_cast<Index>(v)) - mesh.positions.row(held.vertices[k])).squaredNorm();
       if (!(distance < nearest[part])) continue;
@@ -75,7 +73,7 @@ Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh
   }
   std::vector<Island> islands;
   for (std::size_t part = 0; part < part_of.size(); ++part) {
-    if (part_of[part].handle != none) continue;
+    if (part_of[part].handle != no_index) continue;
     part_of[part].handle = chosen[part];
     islands.push_back(part_of[part]);
     held.vertices.push_back(part_of[part].first);

@@ -9,7 +9,7 @@ namespace handlebody {
 
 /** Handle owners[k] holds vertices[k]: one for a point handle, several for a bone. */
 struct HeldVertices {
-  Numbers vertices, owners;
+  Indices vertices, owners;
   Index handle_count = 0;
 };
 
@@ -21,6 +21,6 @@ struct Island {
 /** Checks that every handle holds a vertex and that no two hold the same one, drops repetitions, and then adds the first vertex of
  * each island to the handle that has a vertex nearest to any of the island's. Returns the islands. HANDLES_MISSING,
  * HANDLE_OUT_OF_RANGE (also for a handle without vertices) or HANDLE_CONFLICT. */
-Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh, const Numbers& parts);
+Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh, const Indices& parts);
 
 }  // namespace handlebody

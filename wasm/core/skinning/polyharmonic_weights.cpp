@@ -11,7 +11,6 @@ namespace handlebody {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 constexpr std::size_t most_updates = 64;
 
 void set_unit_rows(const HeldVertices& held, Matrix& weights) {
@@ -58,14 +57,14 @@ Result<Done> PolyharmonicWeights::set_handles(HeldVertices held) {
 
 Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
   const auto n = static_cast<std::size_t>(mesh_.positions.rows());
-  Numbers number_of(n, 0), free;
-  for (const std::uint32_t vertex : held.vertices) number_of[vertex] = none;
+  Indices number_of(n, 0), free;
+  for (const std::uint32_t vertex : held.vertices) number_of[vertex] = no_index;
   for (std::size_t v = 0; v < n; ++v) {
-    if (number_of[v] == none) continue;
+    if (number_of[v] == no_index) continue;
     number_of[v] = static_cast<std::uint32_t>(free.size());
     free.push_back(static_cast<std::uint32_t>(v));
   }
-  const SparseMatrix free_energy = submatrix(energy_, number_of, static_cast<Index>(free.size()));
+  const SparseMatrix free_energy = submatrix(energy_, number_of, std::ssize(free));
   auto analyzed = SparseCholesky::analyze(free_energy);
   if (!analyzed) return analyzed.error();
   std::unique_ptr<SparseCholesky> cholesky = std::move(*analyzed);
@@ -80,7 +79,7 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
   Matrix held_values = Matrix::Zero(static_cast<Index>(n), h), right(static_cast<Index>(n), h);
   set_unit_rows(held, held_values);
   energy_.multiply(held_values.data(), h, right.data());
-  Matrix solution(static_cast<Index>(free.size()), h);
+  Matrix solution(std::ssize(free), h);
   for (std::size_t k = 0; k < free.size(); ++k) solution.row(static_cast<Index>(k)) = -right.row(free[k]);
   cholesky->solve(solution.data(), h);
   for (std::size_t k = 0; k < free.size(); ++k) held_values.row(free[k]) = solution.row(static_cast<Index>(k));
@@ -96,21 +95,21 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
 
 /** False where the vertices of one factored handle went to several: then its weights are of no use. */
 bool PolyharmonicWeights::find_change(const HeldVertices& held, Change& change) const {
-  Numbers owner_of(static_cast<std::size_t>(mesh_.positions.rows()), none);
+  Indices owner_of(mesh_.positions.rows(), no_index);
   for (std::size_t k = 0; k < held.vertices.size(); ++k) owner_of[held.vertices[k]] = held.owners[k];
-  change.target.assign(static_cast<std::size_t>(factored_held_.handle_count), none);
+  change.target.assign(factored_held_.handle_count, no_index);
   for (std::size_t k = 0; k < factored_held_.vertices.size(); ++k) {
     const std::uint32_t vertex = factored_held_.vertices[k], owner = owner_of[vertex];
-    if (owner == none) {
+    if (owner == no_index) {
       change.released.push_back(vertex);
       continue;
     }
     std::uint32_t& target = change.target[factored_held_.owners[k]];
-    if (target != none && target != owner) return false;
+    if (target != no_index && target != owner) return false;
     target = owner;
   }
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
-    if (number_of_[held.vertices[k]] == none) continue;
+    if (number_of_[held.vertices[k]] == no_index) continue;
     change.added.push_back(held.vertices[k]);
     change.new_owner.push_back(held.owners[k]);
   }
@@ -126,23 +125,22 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
   const Index n = mesh_.positions.rows(), h = held.handle_count, factored_h = factored_held_.handle_count;
   Matrix weights = Matrix::Zero(n, h);
   for (Index g = 0; g < factored_h; ++g) {
-    const std::uint32_t target = change.target[static_cast<std::size_t>(g)];
-    if (target != none) weights.col(target) += factored_weights_.col(g);
+    const std::uint32_t target = change.target[g];
+    if (target != no_index) weights.col(target) += factored_weights_.col(g);
   }
 
   // One function for each vertex let go of: its own weight function; and for each held anew: the response to a force there.
-  const auto released = static_cast<Index>(change.released.size()), size = released + static_cast<Index>(change.added.size());
+  const auto released = std::ssize(change.released), size = released + std::ssize(change.added);
   if (size > 0) {
-    Numbers holds(static_cast<std::size_t>(factored_h), 0), group(static_cast<std::size_t>(n), none);
+    Indices holds(factored_h, 0), group(n, no_index);
     for (std::size_t k = 0; k < factored_held_.vertices.size(); ++k) {
       ++holds[factored_held_.owners[k]];
       group[factored_held_.vertices[k]] = factored_held_.owners[k];
     }
     Matrix functions = Matrix::Zero(size, n);
-    Vector column(static_cast<Index>(free_.size()));
+    Vector column(std::ssize(free_));
     for (Index k = 0; k < size; ++k) {
-      const std::uint32_t vertex =
-          k < released ? change.released[static_cast<std::size_t>(k)] : change.added[static_cast<std::size_t>(k - released)];
+      const std::uint32_t vertex = k < released ? change.released[k] : change.added[k - released];
       if (k < released && holds[group[vertex]] == 1) {
         functions.row(k) = factored_weights_.col(group[vertex]).transpose();
         continue;
@@ -152,7 +150,7 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
       if (k < released) {
         functions(k, vertex) = 1;
         for (std::uint32_t e = energy_.starts[row]; e < energy_.starts[row + 1]; ++e)
-          if (number_of_[energy_.columns[e]] != none) column[number_of_[energy_.columns[e]]] = -energy_.values[e];
+          if (number_of_[energy_.columns[e]] != no_index) column[number_of_[energy_.columns[e]]] = -energy_.values[e];
       } else {
         column[number_of_[vertex]] = energy_.diagonal(vertex);
       }
@@ -165,7 +163,7 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
     Matrix right(size, h);
     for (Index i = 0; i < size; ++i) {
       if (i < released) {
-        const std::uint32_t vertex = change.released[static_cast<std::size_t>(i)];
+        const std::uint32_t vertex = change.released[i];
         const double scale = 1 / energy_.diagonal(vertex);
         for (Index k = 0; k < size; ++k) equations(i, k) = scale * energy_.row_times(vertex, functions.data() + k * n);
         for (Index j = 0; j < h; ++j) right(i, j) = -scale * energy_.row_times(vertex, Vector(weights.col(j)).data());

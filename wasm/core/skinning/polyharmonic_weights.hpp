@@ -43,8 +43,8 @@ class PolyharmonicWeights {
   /** How to come from the factored handles to others. */
   struct Change {
     std::vector<std::uint32_t> target;  // for each factored handle, the handle that its vertices belong to now, or none
-    Numbers released, added;            // vertices
-    Numbers new_owner;                  // of each added vertex
+    Indices released, added;            // vertices
+    Indices new_owner;                  // of each added vertex
   };
 
   PolyharmonicWeights() = default;
@@ -55,14 +55,14 @@ class PolyharmonicWeights {
   bool update(const HeldVertices& held, const Change& change);
 
   SimplexMesh mesh_;
-  Numbers parts_;
+  Indices parts_;
   SparseMatrix energy_;
   Vector mass_;
 
   std::unique_ptr<SparseCholesky> cholesky_;  // of Q_ff
   HeldVertices factored_held_;
-  Numbers number_of_;  // of each vertex among the free ones
-  Numbers free_;
+  Indices number_of_;  // of each vertex among the free ones
+  Indices free_;
   Matrix factored_weights_;
 
   Matrix weights_;

@@ -63,7 +63,7 @@ class QuadraticDeformation final : public HeldDeformation {
 
   void minimize() override {
     for (std::size_t k = 0; k < displacements_.size(); ++k)
-      if (owner_of_[k / 2] == no_owner) displacements_[k] = 0;  // nothing of the last frame, not its rounding either
+      if (owner_of_[k / 2] == no_index) displacements_[k] = 0;  // nothing of the last frame, not its rounding either
     rows_->solve(nullptr, displacements_.data());
     report_.energy = rows_->energy(displacements_.data());
     report_.iterations = 1;

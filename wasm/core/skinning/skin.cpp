@@ -20,10 +20,7 @@ Index first_unfit(const double* numbers, Index count) {
 }  // namespace
 
 Skin::Skin(Index vertices, Index dimension, Index handles)
-    : vertices_(vertices),
-      dimension_(dimension),
-      handles_(handles),
-      transforms_(static_cast<std::size_t>(handles * dimension * (dimension + 1))) {
+    : vertices_(vertices), dimension_(dimension), handles_(handles), transforms_(handles * dimension * (dimension + 1)) {
   for (Index row = 0; row < handles * dimension; ++row) transforms_[row * (dimension + 1) + row % dimension] = 1;
 }
 

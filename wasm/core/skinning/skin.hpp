@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

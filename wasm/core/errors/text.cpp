@@ -1,4 +1,4 @@
-#include "core/numerics/text.hpp"
+#include "core/errors/text.hpp"
 
 #include <cmath>
 

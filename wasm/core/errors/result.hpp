@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "core/numerics/status.h"
-#include "core/numerics/text.hpp"
+#include "core/errors/status.h"
+#include "core/errors/text.hpp"
 
 namespace handlebody {
 

@@ -1,4 +1,4 @@
-#include "core/numerics/result.hpp"
+#include "core/errors/result.hpp"
 
 namespace handlebody {
 
