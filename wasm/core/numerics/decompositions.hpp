@@ -1,0 +1,100 @@
+// Eigen's dense decompositions, each instantiated once: every file that named one would compile its own copy. They factor their
+// argument where it lies, so that a system of 11,000 unknowns is not held twice.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <memory>
+
+#include "core/numerics/types.hpp"
+
+namespace handlebody {
+
+/** A = L Lᵀ of a symmetric positive definite matrix (n×n), of which the lower triangle is read. Eigen::LLT. */
+class Cholesky {
+ public:
+  explicit Cholesky(MatrixXd a);
+
+  /** False where a pivot is not positive or any number of the factor is not finite: Eigen::LLT itself lets NaN pass. Nothing else
+   * may be called then. */
+  bool succeeded() const { return succeeded_; }
+
+  Index rows() const { return factor_->rows(); }
+
+  /** L in the lower triangle; the upper one is A's. */
+  const MatrixXd& factor() const { return *factor_; }
+
+  /** Estimated reciprocal of the 1-norm condition number; 0 where that is beyond double precision. */
+  double rcond() const;
+
+  /** x ← A⁻¹ x (n), without allocating; B ← A⁻¹ B (n×m). */
+  void solve_in_place(Vector& x) const;
+  void solve_in_place(MatrixXd& b) const;
+
+ private:
+  // On the heap, since the decomposition refers to the matrix, and both move together.
+  std::unique_ptr<MatrixXd> factor_;
+  std::unique_ptr<Eigen::LLT<Eigen::Ref<MatrixXd>>> llt_;
+  bool succeeded_ = false;
+};
+
+/** P A = L U of a square matrix (n×n) with partial pivoting. A singular matrix passes, and gives numbers that are not finite later
+ * on. Eigen::PartialPivLU. */
+class Lu {
+ public:
+  explicit Lu(MatrixXd a);
+
+  Index rows() const { return factor_->rows(); }
+
+  /** As of Cholesky. */
+  double rcond() const;
+
+  /** A⁻¹ b (n); A⁻¹ B (n×m). */
+  Vector solve(const Vector& b) const;
+  MatrixXd solve(const MatrixXd& b) const;
+
+ private:
+  std::unique_ptr<MatrixXd> factor_;
+  std::unique_ptr<Eigen::PartialPivLU<Eigen::Ref<MatrixXd>>> lu_;
+};
+
+/** A = Q [R; 0] of a tall matrix (m×n, m ≥ n): least squares without squaring the condition number, as normal equations do.
+ *  Eigen::HouseholderQR. */
+class Qr {
+ public:
+  explicit Qr(MatrixXd a);
+  Qr(Qr&&) noexcept;
+  Qr& operator=(Qr&&) noexcept;
+  ~Qr();
+
+  Index rows() const;
+  Index columns() const;
+
+  /** R (n×n), with zeros below its diagonal. */
+  MatrixXd r() const;
+
+  /** B ← QᵀB or Q B (m×k). */
+  void apply_transposed(MatrixXd& b) const;
+  void apply(MatrixXd& b) const;
+
+  /** argmin ‖A X − B‖ (n×k) for B (m×k). Not finite where columns of A depend on each other. */
+  MatrixXd solve(MatrixXd b) const;
+
+  /** Estimated reciprocal of R's 1-norm condition number, as of Cholesky. */
+  double rcond() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+/** A = V diag(λ) Vᵀ of a symmetric matrix (n×n), of which the lower triangle is read: λ ascending, V's columns orthonormal.
+ *  Eigen::SelfAdjointEigenSolver. */
+struct SymmetricEigen {
+  Vector values;
+  MatrixXd vectors;
+};
+
+SymmetricEigen symmetric_eigen(const MatrixXd& a);
+
+}  // namespace handlebody
