@@ -13,6 +13,8 @@ namespace handlebody {
 namespace {
 
 constexpr double most_bytes = 1e9;
+/** Rows of Ψ that are turned into doubles for a product. */
+constexpr Index corners_at_once = 256;
 /** A tetrahedron is flat when its volume is below this part of its longest edge's cube. */
 constexpr double flat = 1e-9;
 
@@ -148,13 +150,12 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
 }
 
 Quality VoxelQuality::measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal) {
-  for (Index i = 0; i < rest_.rows(); ++i) {
-    Vector3 moved = rest_.row(i).transpose() + linear * rest_.row(i).transpose() + translation;
-    const float* row = &psi_(i, 0);
-    double x = 0, y = 0, z = 0;
-    for (Index c = 0; c < psi_.cols(); ++c)
-      x += row[c] * coefficients(c, 0), y += row[c] * coefficients(c, 1), z += row[c] * coefficients(c, 2);
-    deformed_.row(i) = moved + Vector3(x, y, z);
+  for (Index first = 0; first < rest_.rows(); first += corners_at_once) {
+    const Index some = std::min(corners_at_once, rest_.rows() - first);
+    auto moved = deformed_.middleRows(first, some);
+    moved = rest_.middleRows(first, some) * (Matrix3::Identity() + linear).transpose();
+    moved.rowwise() += translation.transpose();
+    moved += psi_.middleRows(first, some).cast<double>() * coefficients;
   }
   Quality quality = measure_tetrahedra(tetrahedra_, rest_, deformed_);
   const double cube = diagonal * diagonal * diagonal;
