@@ -136,12 +136,17 @@ Result<double> Bake::step() {
   return progress();
 }
 
+void Bake::enter(Phase phase) {
+  phase_ = phase;
+  part_ = 0;
+}
+
 void Bake::take_interior() {
   body_.domain = std::move(interior_->domain());
   warnings_ = interior_->warnings();
   for (BakeWarning& warning : warnings_)
     if (warning.place) warning.place = body_.normalization.to_model(*warning.place);
-  phase_ = Phase::depth;
+  enter(Phase::depth);
 }
 
 void Bake::measure_depth() {
@@ -157,7 +162,7 @@ void Bake::measure_depth() {
     const Vector3 center = body_.domain.center(static_cast<Index>(v));
     depth_.push_back(sheet || on_bridge[v] ? 0 : interior_->tree().distance(center, bound));
   }
-  if (end == count) phase_ = Phase::spheres;
+  if (end == count) enter(Phase::spheres);
 }
 
 Result<Done> Bake::pack() {
@@ -173,7 +178,7 @@ Result<Done> Bake::pack() {
   auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, triangles_);
   if (!distance) return distance.error();
   distance_ = std::move(*distance);
-  phase_ = Phase::prepare;
+  enter(Phase::prepare);
   return Done{};
 }
 
@@ -182,7 +187,7 @@ void Bake::begin_sampling() {
   if (!options_.density.empty())
     for (const std::uint32_t vertex : weld_.unique) density.push_back(options_.density[vertex]);
   sampling_ = std::make_unique<CenterSampling>(body_.domain, solver_positions_, *distance_, options_.centers, std::move(density));
-  phase_ = Phase::centers;
+  enter(Phase::centers);
 }
 
 void Bake::take_centers() {
@@ -196,7 +201,7 @@ void Bake::take_centers() {
   body_.distances = std::move(sampling_->distances());
   body_.distance_scale = sampling_->distance_scale();
   sampling_.reset();
-  phase_ = Phase::finished;
+  enter(Phase::finished);
 }
 
 /** Shares of the time on the dog with 200 centers at 96 voxels, native. */

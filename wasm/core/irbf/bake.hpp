@@ -55,6 +55,7 @@ class Bake {
   enum class Phase { interior, depth, spheres, prepare, centers, finished };
 
   Bake();
+  void enter(Phase phase);
   void take_interior();
   void measure_depth();
   Result<Done> pack();
