@@ -75,7 +75,7 @@ std::unique_ptr<InteriorDistance> ready_distance(DistanceMethod method, const Vo
   for (double part = 0; part < 1;) {
     const auto done = (*made)->step();
     REQUIRE(done);
-    CHECK(*done > part);
+    CHECK(*done >= part);
     part = *done;
   }
   return std::move(*made);
@@ -119,7 +119,7 @@ TEST_CASE("fast marching, heat and mean value against known geodesics") {
 
 TEST_CASE("behind the interface each method is its own: Euclidean exactly, the others as their classes measure") {
   static_assert(std::size(all_methods) == distance_method_count);
-  const KnownShape& shape = known_shapes().front();
+  const KnownShape shape = known_shapes().front();
   const VoxelDomain domain = shape.domain(20);
   const MadeMesh mesh = surface(shape);
   const Vector3 source = domain.center(domain.size() / 3);
@@ -134,8 +134,12 @@ TEST_CASE("behind the interface each method is its own: Euclidean exactly, the o
     measured->measure(domain.center(0), own.data());
     measured->measure(source, distances.data());
     CHECK(distances == once);  // whatever was measured between
-    for (std::size_t v = 0; v < size; ++v)
-      CHECK(distances[v] >= (1 - 1e-12) * (domain.center(static_cast<Index>(v)) - source).norm());
+    double least = 1;          // of Euclidean distances: fast marching is a little below them, the others never
+    for (std::size_t v = 0; v < size; ++v) {
+      const double straight = (domain.center(static_cast<Index>(v)) - source).norm();
+      if (straight > 0) least = std::min(least, distances[v] / straight);
+    }
+    CHECK(least >= (method == DistanceMethod::fast_marching ? 0.97 : 1 - 1e-12));
   }
   for (std::size_t v = 0; v < size; ++v) CHECK(found[1][v] == (domain.center(static_cast<Index>(v)) - source).norm());
 
@@ -169,7 +173,7 @@ TEST_CASE("behind the interface what cannot be reached is infinitely far, but no
 }
 
 TEST_CASE("behind the interface only mean value distances look at the surface, and name what is wrong with it") {
-  const KnownShape& shape = known_shapes().front();
+  const KnownShape shape = known_shapes().front();
   const VoxelDomain domain = shape.domain(12);
   MadeMesh open = surface(shape);
   open.triangles.conservativeResize(open.triangles.rows() - 1, 3);
