@@ -44,7 +44,7 @@ Triangles from_lowest(Triangles triangles) {
 }
 
 /** A band of `count` quads round the z axis; twisted by half a turn where it is closed, it is Möbius's. */
-test::MadeMesh band(std::uint32_t count, bool twisted) {
+test::MadeMesh triangle_band(std::uint32_t count, bool twisted) {
   test::MadeMesh mesh;
   mesh.positions.resize(2 * count, 3);
   mesh.triangles.resize(2 * count, 3);
@@ -122,7 +122,7 @@ TEST_CASE("of a mesh that is not closed as it is, every closed part is made to f
 }
 
 TEST_CASE("an open part comes to face as the larger share of its area did") {
-  const test::MadeMesh sheet = band(8, false);
+  const test::MadeMesh sheet = triangle_band(8, false);
   for (const bool most : {false, true}) {
     Triangles triangles = sheet.triangles, expected = sheet.triangles;
     for (Index t = 0; t < triangles.rows(); ++t) {
@@ -147,7 +147,7 @@ TEST_CASE("an open part comes to face as the larger share of its area did") {
 }
 
 TEST_CASE("a Möbius band cannot agree: one edge of two is left, and it says so") {
-  const test::MadeMesh twisted = band(12, true);
+  const test::MadeMesh twisted = triangle_band(12, true);
   Triangles triangles = twisted.triangles;
   const Orientation found = orient_consistently(twisted.positions, triangles);
   CHECK_FALSE(found.closed);

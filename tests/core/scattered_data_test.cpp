@@ -24,8 +24,8 @@ Matrix values_of_places(const Matrix& points) {
   return values;
 }
 
-void check_refused(const Matrix& points, const Matrix& values, hb_status code, hb_culprit culprit, std::int64_t index,
-                   Coincident coincident = Coincident::merge) {
+void check_data_refused(const Matrix& points, const Matrix& values, hb_status code, hb_culprit culprit, std::int64_t index,
+                        Coincident coincident = Coincident::merge) {
   const auto data = check_data(points, values, coincident);
   REQUIRE_FALSE(data);
   CAPTURE(data.error().message);
@@ -109,21 +109,21 @@ TEST_CASE("data that cannot be are named, with the point that is to blame") {
   values << 1, 2, 3, 4, 5, 6, 3, 4;
   CHECK(check_data(points, values, Coincident::merge));
 
-  check_refused(Matrix(0, 2), Matrix(0, 1), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
-  check_refused(Matrix(3, 0), Matrix::Zero(3, 1), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
-  check_refused(points, Matrix(4, 0), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
+  check_data_refused(Matrix(0, 2), Matrix(0, 1), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
+  check_data_refused(Matrix(3, 0), Matrix::Zero(3, 1), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
+  check_data_refused(points, Matrix(4, 0), HB_ERROR_POINTS_TOO_FEW, HB_CULPRIT_NONE, -1);
   for (const double bad : {nan, infinity, -infinity}) {
     Matrix p = points, v = values;
     p(2, 1) = bad;
-    check_refused(p, v, HB_ERROR_POINT_NOT_FINITE, HB_CULPRIT_POINT, 2);
+    check_data_refused(p, v, HB_ERROR_POINT_NOT_FINITE, HB_CULPRIT_POINT, 2);
     v(1, 0) = bad;
-    check_refused(points, v, HB_ERROR_VALUE_NOT_FINITE, HB_CULPRIT_POINT, 1, Coincident::keep);
+    check_data_refused(points, v, HB_ERROR_VALUE_NOT_FINITE, HB_CULPRIT_POINT, 1, Coincident::keep);
   }
   values(3, 1) = 5;  // the fourth point is the second's place
-  check_refused(points, values, HB_ERROR_POINT_DUPLICATE, HB_CULPRIT_POINT, 3);
+  check_data_refused(points, values, HB_ERROR_POINT_DUPLICATE, HB_CULPRIT_POINT, 3);
   CHECK(check_data(points, values, Coincident::keep));
-  check_refused(1.5e308 * points, values, HB_ERROR_POINTS_DEGENERATE, HB_CULPRIT_NONE, -1);
-  check_refused(1e-310 * points, values, HB_ERROR_POINTS_DEGENERATE, HB_CULPRIT_NONE, -1);
+  check_data_refused(1.5e308 * points, values, HB_ERROR_POINTS_DEGENERATE, HB_CULPRIT_NONE, -1);
+  check_data_refused(1e-310 * points, values, HB_ERROR_POINTS_DEGENERATE, HB_CULPRIT_NONE, -1);
 }
 
 TEST_CASE("distances to nearest neighbors, by comparing all, at any size and in any order (seed 117)") {

@@ -53,7 +53,7 @@ SimplexMesh one_tetrahedron() {
   return mesh;
 }
 
-void check_refused(const SimplexMesh& mesh, hb_status code, hb_culprit culprit = HB_CULPRIT_NONE, std::int64_t index = -1) {
+void check_mesh_refused(const SimplexMesh& mesh, hb_status code, hb_culprit culprit = HB_CULPRIT_NONE, std::int64_t index = -1) {
   const auto checked = check_simplex_mesh(mesh);
   REQUIRE_FALSE(checked);
   CAPTURE(checked.error().message);
@@ -89,37 +89,37 @@ TEST_CASE("meshes that no operator can be made on are named") {
 
   SimplexMesh mesh = one_triangle();
   mesh.positions.conservativeResize(2, 2);
-  check_refused(mesh, HB_ERROR_MESH_TOO_FEW_VERTICES);
+  check_mesh_refused(mesh, HB_ERROR_MESH_TOO_FEW_VERTICES);
   mesh = one_tetrahedron();
   mesh.positions.conservativeResize(3, 3);
-  check_refused(mesh, HB_ERROR_MESH_TOO_FEW_VERTICES);
+  check_mesh_refused(mesh, HB_ERROR_MESH_TOO_FEW_VERTICES);
   mesh = one_triangle();
   mesh.simplices.resize(0, 3);
-  check_refused(mesh, HB_ERROR_MESH_NO_TRIANGLES);
+  check_mesh_refused(mesh, HB_ERROR_MESH_NO_TRIANGLES);
   for (const double bad : {nan, HUGE_VAL, -HUGE_VAL}) {
     mesh = one_triangle();
     mesh.positions(1, 1) = bad;
-    check_refused(mesh, HB_ERROR_MESH_NOT_FINITE, HB_CULPRIT_VERTEX, 1);
+    check_mesh_refused(mesh, HB_ERROR_MESH_NOT_FINITE, HB_CULPRIT_VERTEX, 1);
   }
   mesh = one_triangle();
   mesh.positions *= 1e61;
-  check_refused(mesh, HB_ERROR_MESH_NOT_FINITE);
+  check_mesh_refused(mesh, HB_ERROR_MESH_NOT_FINITE);
   mesh.positions.setConstant(2);
-  check_refused(mesh, HB_ERROR_MESH_ZERO_EXTENT);
+  check_mesh_refused(mesh, HB_ERROR_MESH_ZERO_EXTENT);
   mesh = one_triangle();
   mesh.simplices(0, 1) = 3;
-  check_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TRIANGLE, 0);
+  check_mesh_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TRIANGLE, 0);
   mesh.simplices(0, 1) = 0xffffffff;
-  check_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TRIANGLE, 0);
+  check_mesh_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TRIANGLE, 0);
   mesh = one_tetrahedron();
   mesh.simplices.conservativeResize(3, 4);
   mesh.simplices.row(1) << 0, 1, 2, 3;
   mesh.simplices.row(2) << 0, 1, 2, 4;
-  check_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TETRAHEDRON, 2);
+  check_mesh_refused(mesh, HB_ERROR_MESH_INDEX_OUT_OF_RANGE, HB_CULPRIT_TETRAHEDRON, 2);
   // Sizes are refused before anything is read.
   mesh = one_triangle();
   mesh.positions.resize(4'000'001, 2);
-  check_refused(mesh, HB_ERROR_MESH_TOO_LARGE);
+  check_mesh_refused(mesh, HB_ERROR_MESH_TOO_LARGE);
 }
 
 TEST_CASE("simplices without volume are named, thin ones are let through, at any size") {
