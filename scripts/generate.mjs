@@ -79,8 +79,8 @@ export const ERROR_CODES = {
 ${map(codes)}
 } as const;
 
-/** Stable names of everything that can go wrong. */
-export type ErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
+/** Stable names of what can go wrong in the solver. */
+export type SolverErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
 
 export const WARNING_CODES = {
 ${map(warnings)}

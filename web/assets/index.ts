@@ -3,6 +3,7 @@ export { type BodyAccessorName, BodyExtension, BodyProperty } from './body-exten
 export { checkGlb, type GlbParts } from './check-glb.ts';
 export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './check-gltf.ts';
 export type { MeshRange } from './concatenate.ts';
+export type { FileErrorCode, FileErrorCodes } from './error-codes.ts';
 export type { FileMesh } from './file-mesh.ts';
 export { readGlb, writeGlb } from './glb.ts';
 export type { GltfJson } from './gltf-json.ts';
