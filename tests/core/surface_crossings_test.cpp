@@ -91,7 +91,7 @@ TEST_CASE("triangles are turned to agree, and closed parts face outward (seed 4)
   CHECK(repaired.closed);
   CHECK(repaired.open_edges == 0);
   CHECK(repaired.turned > 30);
-  CHECK(test::enclosed_volume(box.positions, triangles) == doctest::Approx(2));
+  CHECK(enclosed_volume(box.positions, triangles) == doctest::Approx(2));
 
   Triangles open = box.triangles.bottomRows(box.triangles.rows() - 1);
   CHECK(orient_consistently(box.positions, open).open_edges == 3);
