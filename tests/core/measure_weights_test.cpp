@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -183,6 +184,23 @@ TEST_CASE("parts, handles without a vertex and flat triangles do no harm") {
   CHECK(std::isnan(none.leaked_weight));
 }
 
+TEST_CASE("the largest weights on the smallest triangles do not overflow") {
+  // Squares of three sizes in two triangles each, of which the last are flat beside the others; weights go up and down around each.
+  SimplexMesh mesh{Matrix(12, 2), Simplices(6, 3)};
+  Matrix weights(12, 1);
+  for (Index q = 0; q < 3; ++q) {
+    const double side = std::array{1., 2e-60, 1e-80}[static_cast<std::size_t>(q)];
+    const auto v = static_cast<std::uint32_t>(4 * q);
+    Matrix square(4, 2);
+    square << 0, 0, side, 0, side, side, 0, side;
+    mesh.positions.middleRows<4>(4 * q) = square * Eigen::Rotation2Dd(0.3).toRotationMatrix();
+    mesh.simplices.middleRows<2>(2 * q) << v, v + 1, v + 2, v, v + 2, v + 3;
+    weights.middleRows<4>(4 * q) << 1e60, -1e60, 1e60, -1e60;
+  }
+  // Gradients (−2, 2)/side and (2, −2)/side times 1e60: their difference is twice as long as they are.
+  CHECK(measured(mesh, {{0}, {0}, 1}, weights).gradient_jump == doctest::Approx(2));
+}
+
 TEST_CASE("refuses what is no mesh, no handle or no weight, and says which") {
   const SimplexMesh mesh = domino();
   const Matrix weights = Matrix::Constant(6, 2, 0.5);
@@ -197,7 +215,7 @@ TEST_CASE("refuses what is no mesh, no handle or no weight, and says which") {
   CHECK(code(mesh, {{0, 5}, {0, 2}, 2}, weights) == HB_ERROR_HANDLE_OUT_OF_RANGE);
   CHECK(code(mesh, held, weights.topRows(5)) == HB_ERROR_INVALID_SHAPE);
   CHECK(code(mesh, held, weights.leftCols(1)) == HB_ERROR_INVALID_SHAPE);
-  for (const double bad : {std::nan(""), infinite, -infinite}) {
+  for (const double bad : {std::nan(""), infinite, -infinite, 1e61, -1e308}) {
     Matrix wrong = weights;
     wrong(4, 1) = bad;
     auto made = measure_weights(mesh, held, wrong);

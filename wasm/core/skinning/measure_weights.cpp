@@ -14,6 +14,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_bytes = 1.5e9;
 constexpr double around_a_bend = 1.5;  // times the straight distance
 constexpr double counts = 0.01;        // a weight that does
+// Squares of gradients must not overflow. Meshes are larger than 1e-60 and smaller than 1e60.
+constexpr double largest_weight = 1e60, shortest_edge = 1e-60;
 
 Result<Done> check(const SimplexMesh& mesh, const HeldVertices& held, const Eigen::Ref<const Matrix>& weights) {
   if (auto checked = check_simplex_mesh(mesh); !checked) return checked.error();
@@ -35,9 +37,10 @@ Result<Done> check(const SimplexMesh& mesh, const HeldVertices& held, const Eige
                  {"Give vertices × handles numbers, row-major."});
   }
   for (Index v = 0; v < n; ++v) {
-    if (weights.row(v).allFinite()) continue;
-    return Error(HB_ERROR_VALUE_NOT_FINITE, {"Vertex ", v, " has a weight that is not a finite number."}, {"Give finite weights."},
-                 HB_CULPRIT_VERTEX, v);
+    if (weights.row(v).allFinite() && weights.row(v).cwiseAbs().maxCoeff() <= largest_weight) continue;
+    return Error(HB_ERROR_VALUE_NOT_FINITE,
+                 {"Vertex ", v, " has a weight that is not a finite number, or too large to compute with."},
+                 {"Give finite weights, below 1e60."}, HB_CULPRIT_VERTEX, v);
   }
   const auto corners = static_cast<double>(mesh.simplices.cols());
   const double bytes =
@@ -143,7 +146,7 @@ Element element_of(const SimplexMesh& mesh, Index s) {
     edges.col(k).head(d) = (mesh.positions.row(mesh.simplices(s, k + 1)) - mesh.positions.row(mesh.simplices(s, 0))).transpose();
   const double volume = simplex_volume(mesh, s), longest = edges.colwise().norm().maxCoeff();
   Element element;
-  if (!(volume > 1e-14 * std::pow(longest, static_cast<double>(edge_count)))) return element;
+  if (!(longest > shortest_edge && volume > 1e-14 * std::pow(longest, static_cast<double>(edge_count)))) return element;
   element.volume = volume;
   if (edge_count == 3) {
     element.duals = edges.inverse().transpose();

@@ -24,7 +24,7 @@ struct WeightMeasures {
 
 /** Measures `weights` (n×h) of the handles on a mesh. Handles may share vertices, or hold none. Simplices without volume have no
  * gradient and are left out. Takes O(h (n + m) log n). Fails with the codes of check_simplex_mesh(), HANDLES_MISSING,
- * HANDLE_OUT_OF_RANGE, INVALID_SHAPE, VALUE_NOT_FINITE (culprit: the vertex) or OUT_OF_MEMORY. */
+ * HANDLE_OUT_OF_RANGE, INVALID_SHAPE, VALUE_NOT_FINITE (a weight beyond 1e60; culprit: the vertex) or OUT_OF_MEMORY. */
 Result<WeightMeasures> measure_weights(const SimplexMesh& mesh, const HeldVertices& held, const Eigen::Ref<const Matrix>& weights);
 
 }  // namespace handlebody
