@@ -104,7 +104,7 @@ TEST_CASE("a bent bar reaches its anchors and keeps its volume") {
   REQUIRE(report);
   CHECK(report->anchor_error < 1e-3 * body.normalization.diagonal);
   const double ratio =
-      test::enclosed_volume(deformed(*irbf), body.triangles) / test::enclosed_volume(body.positions, body.triangles);
+      enclosed_volume(deformed(*irbf), body.triangles) / enclosed_volume(body.positions, body.triangles);
   CHECK(ratio > 0.95);
   CHECK(ratio < 1.05);
 }

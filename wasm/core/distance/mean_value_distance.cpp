@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/enclosed_volume.hpp"
 #include "core/mesh/weld.hpp"
 #include "core/numerics/decompositions.hpp"
 #include "core/numerics/indices.hpp"
@@ -41,16 +42,6 @@ Result<Done> check_closed(const Triangles& triangles, const Indices& original) {
                  {"Close the mesh and orient it, or use another distance."}, HB_CULPRIT_TRIANGLE, original[edges[first] / 3]);
   }
   return Done{};
-}
-
-/** Six times the volume enclosed. */
-double volume(const Points& positions, const Triangles& triangles) {
-  double sum = 0;
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)), c = positions.row(triangles(t, 2));
-    sum += a.dot(b.cross(c));
-  }
-  return sum;
 }
 
 }  // namespace
@@ -95,7 +86,7 @@ Result<MeanValueDistance> MeanValueDistance::begin(const ConstPoints& positions,
                  {"Mean value distances need a closed surface; use another distance."});
   }
   if (auto closed = check_closed(made.triangles_, original); !closed) return closed.error();
-  if (volume(made.positions_, made.triangles_) < 0) made.triangles_.col(1).swap(made.triangles_.col(2));
+  if (enclosed_volume(made.positions_, made.triangles_) < 0) made.triangles_.col(1).swap(made.triangles_.col(2));
 
   // The first landmark is the vertex farthest from the middle of them all; its distances tell what is connected.
   made.geodesics_.emplace(made.positions_, made.triangles_);

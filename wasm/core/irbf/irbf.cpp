@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/irbf/sphere_energy.hpp"
+#include "core/mesh/enclosed_volume.hpp"
 #include "core/numerics/closest_rotation.hpp"
 
 namespace handlebody {
