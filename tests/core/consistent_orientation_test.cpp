@@ -75,7 +75,7 @@ TEST_CASE("triangles are turned to agree, and closed parts face outward (seed 4)
   CHECK(repaired.closed);
   CHECK(repaired.open_edges == 0);
   CHECK(repaired.turned > 30);
-  CHECK(test::enclosed_volume(box.positions, triangles) == doctest::Approx(2));
+  CHECK(enclosed_volume(box.positions, triangles) == doctest::Approx(2));
 
   Triangles open = box.triangles.bottomRows(box.triangles.rows() - 1);
   CHECK(orient_consistently(box.positions, open).open_edges == 3);
@@ -171,7 +171,7 @@ TEST_CASE("an edge of three triangles joins no parts, but the others agree (seed
   const Orientation found = orient_consistently(mesh.positions, triangles);
   CHECK_FALSE(found.closed);
   CHECK(found.open_edges == 3);  // the fin's
-  CHECK(test::enclosed_volume(mesh.positions, triangles.topRows(box)) == doctest::Approx(1));
+  CHECK(enclosed_volume(mesh.positions, triangles.topRows(box)) == doctest::Approx(1));
 }
 
 TEST_CASE("triangles that use a vertex twice have no sides: they open nothing and join nothing") {
