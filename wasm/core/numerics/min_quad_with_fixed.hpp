@@ -17,8 +17,8 @@ struct FreeRows {
   SparseMatrix to_fixed;    // Q_fp, m×n: columns keep their indices, those of free unknowns are empty
 };
 
-/** `free` lists m of Q's n unknowns in ascending order. As Sᵀ Q S, with the columns of S those of the identity, this would take
- * 8 times as long, a third of what factoring takes. */
+/** `free` lists m of Q's n unknowns in ascending order. Q_ff as Sᵀ Q S, with the columns of S those of the identity, takes 5 times
+ * as long, a fifth of what factoring it takes (the bi-Laplacian of 2,300 vertices), which counts where active sets change. */
 FreeRows free_rows(const SparseMatrix& q, const Indices& free);
 
 class MinQuadWithFixed {

@@ -199,6 +199,7 @@ void SparseCholesky::solve_columns(double* x, Index stride, int count) {
 
 void SparseCholesky::solve(double* x, Index width) {
   if (width == 1) return solve_columns<1>(x, 1, 1);
+  if (width == 2) return solve_columns<2>(x, 2, 2);  // a deformation's frame in the plane
   for (Index done = 0; done < width; done += together)
     solve_columns<together>(x + done, width, static_cast<int>(std::min<Index>(together, width - done)));
 }
