@@ -63,8 +63,9 @@ const double* hb_skinning_weights_mass(hb_skinning_weights* weights) {
 
 uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* out) {
   const SparseMatrix& energy = weights->weights->energy();
-  *out = {energy.starts.data(), energy.columns.data(), energy.values.data()};
-  return static_cast<uint32_t>(energy.columns.size());
+  *out = {reinterpret_cast<const uint32_t*>(energy.outerIndexPtr()), reinterpret_cast<const uint32_t*>(energy.innerIndexPtr()),
+          energy.valuePtr()};
+  return static_cast<uint32_t>(energy.nonZeros());
 }
 
 int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance) {
