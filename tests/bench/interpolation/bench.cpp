@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "abi/handlebody.h"
-#include "core/numerics/dense.hpp"
+#include "core/numerics/products.hpp"
 
 namespace {
 

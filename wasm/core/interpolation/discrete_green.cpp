@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/numerics/dense.hpp"
+#include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
@@ -23,8 +24,7 @@ Matrix differences(const Matrix& rows, bool outer, bool cyclic, bool backward) {
     for (const Index sign : {1, -1}) {
       Index from = i - shift + (sign > 0 ? 1 : 0);
       if (cyclic) from = (from + given) % given;
-      if (from < 0 || from >= given) continue;
-      for (Index j = 0; j < rows.cols(); ++j) out(i, j) += static_cast<double>(sign) * rows(from, j);
+      if (from >= 0 && from < given) out.row(i) += static_cast<double>(sign) * rows.row(from);
     }
   return out;
 }
@@ -49,51 +49,31 @@ Matrix null_space(Index size, Index columns) {
     const double row[] = {1, t, t * t - mean_square};
     for (Index a = 0; a < columns; ++a) basis(i, a) = row[a];
   }
-  for (Index a = 0; a < columns; ++a) {
-    double squared = 0;
-    for (Index i = 0; i < size; ++i) squared += basis(i, a) * basis(i, a);
-    for (Index i = 0; i < size; ++i) basis(i, a) /= std::sqrt(squared);
-  }
+  for (Index a = 0; a < columns; ++a) basis.col(a).normalize();
   return basis;
 }
 
 /** Free ends: the kernel of m = |i − j| less what of it lies in the null space, (I − N Nᵀ) K (I − N Nᵀ). */
-Matrix free_green(int order, const Matrix& basis) {
-  const Index size = basis.rows(), columns = basis.cols();
-  Matrix green(size, size);
-  for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j) {
-      const auto m = static_cast<double>(std::abs(i - j));
-      green(i, j) = order == 1 ? -m / 2 : order == 2 ? m * (m * m - 1) / 12 : -m * (m * m - 1) * (m * m - 4) / 240;
-    }
-  // Both sides at once: K − N (KN − N NᵀKN/2)ᵀ − (KN − N NᵀKN/2) Nᵀ
-  Matrix image = Matrix::Zero(size, columns);
-  for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j)
-      for (Index a = 0; a < columns; ++a) image(i, a) += green(i, j) * basis(j, a);
-  Matrix within = Matrix::Zero(columns, columns);
-  for (Index i = 0; i < size; ++i)
-    for (Index a = 0; a < columns; ++a)
-      for (Index b = 0; b < columns; ++b) within(a, b) += basis(i, a) * image(i, b) / 2;
-  for (Index i = 0; i < size; ++i)
-    for (Index a = 0; a < columns; ++a)
-      for (Index b = 0; b < columns; ++b) image(i, b) -= basis(i, a) * within(a, b);
-  for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j)
-      for (Index a = 0; a < columns; ++a) green(i, j) -= basis(i, a) * image(j, a) + image(i, a) * basis(j, a);
-  return green;
+MatrixXd free_green(int order, const MatrixXd& n) {
+  const MatrixXd k = MatrixXd::NullaryExpr(n.rows(), n.rows(), [order](Index i, Index j) {
+    const auto m = static_cast<double>(std::abs(i - j));
+    return order == 1 ? -m / 2 : order == 2 ? m * (m * m - 1) / 12 : -m * (m * m - 1) * (m * m - 4) / 240;
+  });
+  // Both sides at once: K − N Wᵀ − W Nᵀ with W = KN − ½ N (NᵀKN)
+  const MatrixXd image = product(k, n), w = image - product(n, transposed_product(n, image) / 2),
+                 one_side = product(n, w.transpose());
+  return k - (one_side + one_side.transpose());
 }
 
-void remove_mean(double* x, Index size) {
-  double sum = 0;
-  for (Index i = 0; i < size; ++i) sum += x[i];
-  for (Index i = 0; i < size; ++i) x[i] -= sum / static_cast<double>(size);
+void remove_mean(Eigen::Ref<Vector> x) {
+  x.array() -= x.mean();
 }
 
 /** x ← (D₁ᵀD₁)⁻¹ x, or the generalized inverse: the slope falls by x from gap to gap, and the boundary says where it begins. */
-void integrate_twice(double* x, Index size, GridBoundary boundary) {
+void integrate_twice(Eigen::Ref<Vector> x, GridBoundary boundary) {
+  const Index size = x.size();
   const bool dirichlet = boundary == GridBoundary::dirichlet;
-  if (!dirichlet) remove_mean(x, size);
+  if (!dirichlet) remove_mean(x);
   double fallen = 0, sum = 0;
   for (Index i = 0; i < size; ++i) sum += fallen += x[i];
   double slope = 0;
@@ -105,15 +85,14 @@ void integrate_twice(double* x, Index size, GridBoundary boundary) {
     x[i] = f;
     f += slope;
   }
-  if (!dirichlet) remove_mean(x, size);
+  if (!dirichlet) remove_mean(x);
 }
 
-Matrix green_matrix(int order, GridBoundary boundary, const Matrix& basis) {
+MatrixXd green_matrix(int order, GridBoundary boundary, const MatrixXd& basis) {
   if (boundary == GridBoundary::free) return free_green(order, basis);
-  const Index size = basis.rows();
-  Matrix green = Matrix::Identity(size, size);  // symmetric: rows are columns
-  for (Index j = 0; j < size; ++j)
-    for (int step = 0; step < order; ++step) integrate_twice(&green(j, 0), size, boundary);
+  MatrixXd green = MatrixXd::Identity(basis.rows(), basis.rows());
+  for (Index j = 0; j < green.cols(); ++j)
+    for (int step = 0; step < order; ++step) integrate_twice(green.col(j), boundary);
   return green;
 }
 
@@ -159,13 +138,11 @@ Result<DiscreteGreen> DiscreteGreen::create(Index size, int order, GridBoundary 
 }
 
 Matrix DiscreteGreen::squared() const {
+  // Row by row, since D is banded: Eigen's product would multiply zeros, N³ of them.
   Matrix out = Matrix::Zero(size(), size());
   for (Index row = 0; row < difference_.rows(); ++row)
-    for (Index i = 0; i < size(); ++i) {
-      const double factor = difference_(row, i);
-      if (factor == 0) continue;
-      for (Index j = 0; j < size(); ++j) out(i, j) += factor * difference_(row, j);
-    }
+    for (Index i = 0; i < size(); ++i)
+      if (difference_(row, i) != 0) out.row(i) += difference_(row, i) * difference_.row(row);
   return out;
 }
 
@@ -182,10 +159,11 @@ void DiscreteGreen::solve_grid(double* f) const {
   }
   const auto unknowns = std::ssize(place);
 
-  // R and its right-hand side, in the last column, row by row of D: each is rotated into the rows before it, or becomes one.
-  Matrix r = Matrix::Zero(unknowns, unknowns + 1);
+  // R and its right-hand side, in the last column, row by row of D, which begin in the last row: each is rotated into the rows
+  // before it, or becomes one. So a band stays one; Eigen's factorizations, which know no bands, would take O(N³).
+  Matrix r = Matrix::Zero(unknowns + 1, unknowns + 1);
   std::vector<Index> end(place.size(), 0);  // of each row of R: 0 where there is none yet
-  Vector row(unknowns + 1);
+  auto row = r.row(unknowns);
   for (Index equation = 0; equation < difference_.rows(); ++equation) {
     row.setZero();
     Index first = unknowns, last = 0;
@@ -205,19 +183,15 @@ void DiscreteGreen::solve_grid(double* f) const {
       if (row[c] == 0) continue;
       Index& reach = end[c];
       if (reach == 0) {
-        r.row(c) = row.transpose();
+        r.row(c) = row;
         reach = last;
         break;
       }
       last = reach = std::max(last, reach);
-      const double length = std::sqrt(r(c, c) * r(c, c) + row[c] * row[c]), cosine = r(c, c) / length, sine = row[c] / length;
-      const auto rotate = [&](Index j) {
-        const double upper = r(c, j), lower = row[j];
-        r(c, j) = cosine * upper + sine * lower;
-        row[j] = cosine * lower - sine * upper;
-      };
-      for (Index j = c; j < last; ++j) rotate(j);
-      rotate(unknowns);
+      Eigen::JacobiRotation<double> rotation;
+      rotation.makeGivens(r(c, c), row[c]);
+      r.middleCols(c, last - c).applyOnTheLeft(c, unknowns, rotation.adjoint());
+      r.col(unknowns).applyOnTheLeft(c, unknowns, rotation.adjoint());
     }
   }
   for (Index c = unknowns; c-- > 0;) {
@@ -229,28 +203,20 @@ void DiscreteGreen::solve_grid(double* f) const {
 
 void DiscreteGreen::solve_radial(double* f, double* weights) const {
   const Index count = values_.size(), columns = null_space_.cols();
+  const MatrixXd green = green_(Eigen::all, samples_), polynomials = null_space_(samples_, Eigen::all);
   // λ in units of 1/G and N of order 1, so that pivots compare.
-  double largest = 0;
-  for (Index i = 0; i < size(); ++i) largest = std::max(largest, green_(i, i));
-  const double scale = std::sqrt(static_cast<double>(size()));
-  const auto place = [&](Index k) { return samples_[k]; };
+  const double largest = std::max(green_.diagonal().maxCoeff(), 0.0), scale = std::sqrt(static_cast<double>(size()));
   MatrixXd system = MatrixXd::Zero(count + columns, count + columns);
+  system.topLeftCorner(count, count) = green(samples_, Eigen::all) / largest;
+  system.topRightCorner(count, columns) = scale * polynomials;
+  system.bottomLeftCorner(columns, count) = scale * polynomials.transpose();
   Vector solution = Vector::Zero(count + columns);
-  for (Index k = 0; k < count; ++k) {
-    solution[k] = values_[k];
-    for (Index l = 0; l < count; ++l) system(k, l) = green_(place(k), place(l)) / largest;
-    for (Index a = 0; a < columns; ++a) system(k, count + a) = system(count + a, k) = null_space_(place(k), a) * scale;
-  }
-  std::vector<Index> pivots;
-  factor_lu(system, pivots);
-  solve_lu(system, pivots, solution.data());
-  for (Index k = 0; k < count + columns; ++k) solution[k] = k < count ? solution[k] / largest : solution[k] * scale;
+  solution.head(count) = values_;
+  solution = Lu(std::move(system)).solve(solution);
+  solution.head(count) /= largest;
+  solution.tail(columns) *= scale;
   if (weights) std::copy(solution.begin(), solution.end(), weights);
-  for (Index i = 0; i < size(); ++i) {
-    f[i] = 0;
-    for (Index k = 0; k < count; ++k) f[i] += green_(i, place(k)) * solution[k];
-    for (Index a = 0; a < columns; ++a) f[i] += null_space_(i, a) * solution[count + a];
-  }
+  Eigen::Map<Vector>(f, size()) = product(green, solution.head(count)) + product(null_space_, solution.tail(columns));
 }
 
 }  // namespace handlebody

@@ -2,164 +2,231 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/interpolation/polynomial.hpp"
-#include "core/numerics/condition_estimate.hpp"
-#include "core/numerics/dense.hpp"
-#include "core/numerics/householder_qr.hpp"
+#include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
 
-double largest_column_sum(const MatrixXd& matrix) {
-  double largest = 0;
-  const double* entry = matrix.data();
-  for (Index j = 0; j < matrix.cols(); ++j) {
-    double sum = 0;
-    for (Index i = 0; i < matrix.rows(); ++i) sum += std::abs(*entry++);
-    if (!(largest >= sum) && !std::isnan(largest)) largest = sum;  // a NaN stays
-  }
-  return largest;
+double or_infinite(double condition) {
+  return std::isfinite(condition) ? condition : std::numeric_limits<double>::infinity();
 }
 
+/** The polynomials of the tail at inner coordinates (n×tail, of which the first `columns` are wanted). */
+MatrixXd tail_at(const RadialBasis& basis, const Matrix& inner, Index columns) {
+  MatrixXd p(inner.rows(), columns);
+  Vector row(basis.tail());
+  for (Index i = 0; i < inner.rows(); ++i) {
+    polynomial_values(&inner(i, 0), basis.dimension(), basis.degree(), row.data());
+    p.row(i) = row.head(columns).transpose();
+  }
+  return p;
+}
+
+/** The whole block matrix by LU, for any kernel. */
 class SaddleFit final : public LinearFit {
  public:
   SaddleFit(RadialBasis& basis, const Matrix& points, double smoothing) : points_(points.rows()) {
-    const Index n = points_, size = basis.size();
-    MatrixXd system(size, size);  // transposed: one column a point
-    for (Index i = 0; i < n; ++i) basis.values(&points(i, 0), &system(0, i));
-    for (Index j = n; j < size; ++j) {
-      for (Index i = 0; i < n; ++i) system(i, j) = system(j, i);
-      for (Index i = n; i < size; ++i) system(i, j) = 0;
-    }
-    for (Index i = 0; i < n; ++i) system(i, i) += basis.kernel().sign() * basis.amplitude_of_scale() * smoothing;
-    norm_ = largest_column_sum(system);
-    factor_lu(system, pivots_);
-    factor_ = std::move(system);
-    condition_ = norm_ * estimate_inverse_norm(
-                             size, [&](double* x) { solve_lu(factor_, pivots_, x); },
-                             [&](double* x) {
-                               MatrixXd row = Eigen::Map<MatrixXd>(x, 1, size);
-                               solve_lu(factor_, pivots_, row);
-                               std::copy(row.data(), row.data() + size, x);
-                             });
+    const Index n = points_, size = basis.size(), tail = basis.tail();
+    MatrixXd system(size, size);
+    for (Index i = 0; i < n; ++i) basis.values(&points(i, 0), &system(0, i));  // row i
+    system.leftCols(n).topRows(n).diagonal().array() += basis.kernel().sign() * basis.amplitude_of_scale() * smoothing;
+    system.topRightCorner(n, tail) = system.bottomLeftCorner(tail, n).transpose();
+    system.bottomRightCorner(tail, tail).setZero();
+    system.transposeInPlace();
+    norm_ = one_norm(system);
+    lu_.emplace(std::move(system));
+    condition_ = or_infinite(1 / lu_->rcond());
   }
 
   MatrixXd coefficients(const Matrix& values) const override {
-    MatrixXd result = MatrixXd::Zero(values.cols(), factor_.rows());
-    for (Index i = 0; i < points_; ++i)
-      for (Index j = 0; j < values.cols(); ++j) result(j, i) = values(i, j);
-    solve_lu(factor_, pivots_, result);
-    return result;
+    MatrixXd known = MatrixXd::Zero(lu_->rows(), values.cols());
+    known.topRows(points_) = values;
+    return lu_->solve(known).transpose();
   }
 
  private:
   Index points_;
-  MatrixXd factor_;
-  std::vector<Index> pivots_;
+  std::optional<Lu> lu_;
+};
+
+/** Half of LU's work where the kernel, times its sign, is positive definite on what the side conditions leave. With P = Q [T; 0],
+ * c = Q [y; z] and B = Qᵀ(R + λI)Q, the equations become
+ *
+ *   [ B₁₁  B₂₁ᵀ  T ] [y]
+ *   [ B₂₁  B₂₂   0 ] [z] = [Qᵀf; h],     h = 0,
+ *   [ Tᵀ    0    0 ] [d]
+ *
+ *  of which only B₂₂ takes a factorization: Cholesky's. */
+class DefiniteFit final : public LinearFit, private SymmetricInverse {
+ public:
+  DefiniteFit(RadialBasis& basis, const Matrix& points, double smoothing)
+      : tail_(basis.tail()), sign_(basis.kernel().sign()), side_(tail_at(basis, basis.to_inner(points), tail_)) {
+    const Index n = points.rows();
+    MatrixXd b(n, n);  // its lower triangle
+    for (Index j = 0; j < n; ++j) {
+      basis.kernels_from(j, &points(j, 0), &b(j, j));
+      if (sign_ < 0) b.col(j).tail(n - j) *= -1;
+    }
+    b.diagonal().array() += basis.amplitude_of_scale() * smoothing;
+    set_norm(b, tail_at(basis, basis.to_inner(points), tail_));
+    side_.conjugate(b);
+    // The first columns are kept apart. Those of the identity in their place save copying the rest.
+    strip_ = b.leftCols(tail_);
+    strip_.topRows(tail_).triangularView<Eigen::StrictlyUpper>() = strip_.topRows(tail_).transpose();
+    b.leftCols(tail_).setZero();
+    b.diagonal().head(tail_).setOnes();
+    cholesky_.emplace(std::move(b));
+    if (definite()) condition_ = or_infinite(norm_ * inverse_norm_estimate(*this));
+  }
+
+  /** Nothing else may be asked of it where it is not. */
+  bool definite() const { return cholesky_->succeeded(); }
+
+  MatrixXd coefficients(const Matrix& values) const override {
+    const Index n = cholesky_->rows();
+    MatrixXd x = MatrixXd::Zero(n + tail_, values.cols());
+    x.topRows(n) = values;
+    if (x.cols() == 1) {
+      Vector one = x.col(0);
+      solve(one);
+      x.col(0) = one;
+    } else {
+      solve(x);
+    }
+    x.topRows(n) *= sign_;
+    return x.transpose();
+  }
+
+ private:
+  Index rows() const override { return cholesky_->rows() + tail_; }
+  void apply(Vector& x) const override { solve(x); }
+
+  /** [f; h] becomes [c; d], of a vector or of columns. */
+  template <typename Columns>
+  void solve(Columns& x) const {
+    const Index n = cholesky_->rows();
+    Columns c = x.topRows(n);
+    side_.apply_transposed(c);
+    auto d = x.bottomRows(tail_);
+    const MatrixXd top = c.topRows(tail_);
+    side_.solve_r_transposed(d);
+    c.topRows(tail_).setZero();
+    c.bottomRows(n - tail_) -= product(strip_.bottomRows(n - tail_), d);
+    cholesky_->solve_in_place(c);
+    c.topRows(tail_) = d;
+    d = top - transposed_product(strip_, c);
+    side_.solve_r(d);
+    side_.apply(c);
+    x.topRows(n) = c;
+  }
+
+  /** Of the whole block matrix. */
+  void set_norm(const MatrixXd& lower, const MatrixXd& p) {
+    const Index n = lower.rows();
+    Vector sums = p.cwiseAbs().rowwise().sum();
+    for (Index j = 0; j < n; ++j) {
+      const auto below = lower.col(j).tail(n - 1 - j).cwiseAbs();
+      sums[j] += std::abs(lower(j, j)) + below.sum();
+      sums.tail(n - 1 - j) += below;
+    }
+    norm_ = std::max(sums.maxCoeff<Eigen::PropagateNaN>(), one_norm(p));
+  }
+
+  Index tail_;
+  double sign_;
+  Qr side_;         // of P
+  MatrixXd strip_;  // B₁₁ and B₂₁
+  std::optional<Cholesky> cholesky_;
 };
 
 /** The null space of the side conditions P(centers)ᵀ c = 0, as Householder reflections: c = Q [0; z]. */
 class SideConditions {
  public:
-  SideConditions(const RadialBasis& basis, const Matrix& inner_centers) : k_(basis.centers()), fixed_(std::min(basis.tail(), k_)) {
-    if (fixed_ == 0 || fixed_ == k_) return;
-    MatrixXd p(k_, fixed_);
-    Vector row(basis.tail());
-    for (Index i = 0; i < k_; ++i) {
-      polynomial_values(&inner_centers(i, 0), basis.dimension(), basis.degree(), row.data());
-      p.row(i) = row.transpose();
-    }
-    qr_ = std::make_unique<HouseholderQr>(std::move(p));
-  }
+  SideConditions(const RadialBasis& basis, const Matrix& centers)
+      : k_(basis.centers()), fixed_(std::min(basis.tail(), k_)), qr_(tail_at(basis, basis.to_inner(centers), fixed_)) {}
 
   Index free() const { return k_ - fixed_; }
 
-  /** r (k) becomes r·N in its first free() numbers. */
-  void project(double* r) const {
-    if (qr_) qr_->apply_transposed(r);
-    std::rotate(r, r + fixed_, r + k_);
+  /** The matrix of the least-squares problem without weights, [R N, P] with c = N z: n × (free() + tail). */
+  void fill_design(RadialBasis& basis, const Matrix& points, Eigen::Ref<MatrixXd> out) const {
+    constexpr Index block = 64;
+    const Index n = points.rows(), tail = basis.tail();
+    MatrixXd functions(basis.size(), std::min(block, n));  // one column a point
+    for (Index first = 0; first < n; first += block) {
+      const Index width = std::min(block, n - first);
+      for (Index q = 0; q < width; ++q) basis.values(&points(first + q, 0), &functions(0, q));
+      qr_.apply_transposed(functions.topLeftCorner(k_, width));
+      out.block(first, 0, width, free()) = functions.block(fixed_, 0, free(), width).transpose();
+      out.block(first, free(), width, tail) = functions.bottomRows(tail).leftCols(width).transpose();
+    }
   }
 
-  /** z in the first free() numbers becomes c (k). */
-  void expand(double* z) const {
-    std::rotate(z, z + free(), z + k_);
-    std::fill(z, z + fixed_, 0.0);
-    if (qr_) qr_->apply(z);
+  /** z (free()×m) becomes c (k×m). */
+  MatrixXd expand(const Eigen::Ref<const MatrixXd>& z) const {
+    MatrixXd c = MatrixXd::Zero(k_, z.cols());
+    c.bottomRows(free()) = z;
+    qr_.apply(c);
+    return c;
   }
 
  private:
   Index k_, fixed_;
-  std::unique_ptr<HouseholderQr> qr_;
+  Qr qr_;
 };
-
-MatrixXd design(RadialBasis& basis, const Matrix& points, const SideConditions& side) {
-  const Index k = basis.centers(), free = side.free(), tail = basis.tail();
-  MatrixXd matrix(points.rows(), free + tail);
-  Vector row(basis.size());
-  for (Index i = 0; i < points.rows(); ++i) {
-    basis.values(&points(i, 0), row.data());
-    side.project(row.data());
-    for (Index j = 0; j < free; ++j) matrix(i, j) = row[j];
-    for (Index j = 0; j < tail; ++j) matrix(i, free + j) = row[k + j];
-  }
-  return matrix;
-}
 
 class LeastSquaresFit final : public LinearFit {
  public:
   LeastSquaresFit(RadialBasis& basis, const Matrix& points, const Matrix& centers, double weight_decay, const Vector& row_weights)
-      : points_(points.rows()), centers_(basis.centers()), tail_(basis.tail()), side_(basis, basis.to_inner(centers)) {
+      : points_(points.rows()), tail_(basis.tail()), side_(basis, centers) {
     const Index free = side_.free();
     const bool decays = weight_decay > 0;
     root_weights_ = row_weights.size() ? Vector(row_weights.cwiseSqrt()) : Vector::Ones(points_);
     MatrixXd stacked = MatrixXd::Zero(points_ + (decays ? free : 0), free + tail_);
-    stacked.topRows(points_) = design(basis, points, side_);
-    for (Index j = 0; j < stacked.cols(); ++j)
-      for (Index i = 0; i < points_; ++i) stacked(i, j) *= root_weights_[i];
-    if (decays)
-      for (Index j = 0; j < free; ++j) stacked(points_ + j, j) = basis.amplitude_of_scale() * std::sqrt(weight_decay);
-    qr_ = std::make_unique<HouseholderQr>(std::move(stacked));
-    const Index columns = qr_->columns();
-    for (Index j = 0; j < columns; ++j) {
-      double sum = 0;
-      for (Index i = 0; i <= j; ++i) sum += std::abs(qr_->r(i, j));
-      norm_ = std::max(norm_, sum);
-    }
-    condition_ = norm_ * estimate_inverse_norm(
-                             columns, [&](double* x) { qr_->solve_r(x); }, [&](double* x) { qr_->solve_r_transposed(x); });
+    side_.fill_design(basis, points, stacked.topRows(points_));
+    stacked.topRows(points_).array().colwise() *= root_weights_.array();
+    if (decays) stacked.bottomLeftCorner(free, free).diagonal().setConstant(basis.amplitude_of_scale() * std::sqrt(weight_decay));
+    qr_.emplace(std::move(stacked));
+    norm_ = one_norm(qr_->r());
+    condition_ = or_infinite(1 / qr_->rcond());
   }
 
   MatrixXd coefficients(const Matrix& values) const override {
     const Index free = side_.free();
-    MatrixXd result(values.cols(), centers_ + tail_);
-    Vector x(qr_->rows()), c(centers_);
-    for (Index j = 0; j < values.cols(); ++j) {
-      x.setZero();
-      for (Index i = 0; i < points_; ++i) x[i] = root_weights_[i] * values(i, j);
-      qr_->apply_transposed(x.data());
-      qr_->solve_r(x.data());
-      c.setZero();
-      c.head(free) = x.head(free);
-      side_.expand(c.data());
-      for (Index i = 0; i < centers_; ++i) result(j, i) = c[i];
-      for (Index i = 0; i < tail_; ++i) result(j, centers_ + i) = x[free + i];
-    }
+    MatrixXd weighted = MatrixXd::Zero(qr_->rows(), values.cols());
+    weighted.topRows(points_) = root_weights_.asDiagonal() * values;
+    const MatrixXd x = qr_->solve(std::move(weighted)), c = side_.expand(x.topRows(free));
+    MatrixXd result(values.cols(), c.rows() + tail_);
+    result.leftCols(c.rows()) = c.transpose();
+    result.rightCols(tail_) = x.bottomRows(tail_).transpose();
     return result;
   }
 
  private:
-  Index points_, centers_, tail_;
+  Index points_, tail_;
   SideConditions side_;
   Vector root_weights_;
-  std::unique_ptr<HouseholderQr> qr_;
+  std::optional<Qr> qr_;
 };
+
+/** Whether a theorem says that the kernel, with its sign, is positive definite on what the tail's side conditions leave. */
+bool known_definite(const RadialBasis& basis) {
+  const Kernel& kernel = basis.kernel();
+  return basis.symmetric() && basis.degree() >= kernel.minimum_degree() && basis.dimension() <= kernel.definite_to_dimension();
+}
 
 }  // namespace
 
 std::unique_ptr<LinearFit> fit_interpolant(RadialBasis& basis, const Matrix& points, double smoothing) {
+  if (known_definite(basis)) {
+    auto definite = std::make_unique<DefiniteFit>(basis, points, smoothing);
+    if (definite->definite()) return definite;
+  }
   return std::make_unique<SaddleFit>(basis, points, smoothing);
 }
 
@@ -169,7 +236,10 @@ std::unique_ptr<LinearFit> fit_least_squares(RadialBasis& basis, const Matrix& p
 }
 
 MatrixXd design_matrix(RadialBasis& basis, const Matrix& points, const Matrix& centers) {
-  return design(basis, points, SideConditions(basis, basis.to_inner(centers)));
+  const SideConditions side(basis, centers);
+  MatrixXd matrix(points.rows(), side.free() + basis.tail());
+  side.fill_design(basis, points, matrix);
+  return matrix;
 }
 
 }  // namespace handlebody

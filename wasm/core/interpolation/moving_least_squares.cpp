@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/interpolation/polynomial.hpp"
-#include "core/numerics/dense.hpp"
 #include "core/numerics/elementary.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/dense.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 namespace {

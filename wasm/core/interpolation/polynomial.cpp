@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
@@ -10,40 +12,17 @@ namespace {
 // Columns count as dependent when what is left of them falls below this part of the longest.
 constexpr double rank_tolerance = 1e-10;
 
-/** The columns from `first` on become unit vectors, perpendicular to each other and to all before, which are so already:
- * Gram–Schmidt with column pivoting. Returns how many there are; the columns after those are rubbish. */
-Index orthonormalize(MatrixXd& columns, Index first) {
-  const Index rows = columns.rows(), count = columns.cols();
-  const auto longest = [&](Index from, Index& pivot) {
-    double most = 0;
-    for (Index j = from; j < count; ++j) {
-      double squared = 0;
-      for (Index i = 0; i < rows; ++i) squared += columns(i, j) * columns(i, j);
-      if (squared > most) most = squared, pivot = j;
-    }
-    return std::sqrt(most);
-  };
-  const auto remove = [&](Index direction, Index from) {
-    for (Index j = from; j < count; ++j) {
-      double along = 0;
-      for (Index i = 0; i < rows; ++i) along += columns(i, direction) * columns(i, j);
-      for (Index i = 0; i < rows; ++i) columns(i, j) -= along * columns(i, direction);
-    }
-  };
-  Index pivot = first;
-  const double largest = longest(first, pivot);
-  for (int twice = 0; twice < 2; ++twice)  // the second pass removes what rounding left of the first
-    for (Index k = 0; k < first; ++k) remove(k, first);
-  for (Index k = first; k < count; ++k) {
-    const double norm = longest(k, pivot);
-    if (!(norm > rank_tolerance * largest)) return k - first;
-    for (Index i = 0; i < rows; ++i) {
-      std::swap(columns(i, k), columns(i, pivot));
-      columns(i, k) /= norm;
-    }
-    for (int twice = 0; twice < 2; ++twice) remove(k, k + 1);
-  }
-  return count - first;
+/** Takes the span of the first `count` columns, which are orthonormal, out of the others, and puts as many orthonormal columns as
+ * span what is left in the place of these. Returns how many. */
+Index orthonormalize(MatrixXd& columns, Index count) {
+  const auto front = columns.leftCols(count);
+  auto rest = columns.rightCols(columns.cols() - count);
+  const double longest = std::sqrt(rest.colwise().squaredNorm().maxCoeff());
+  for (int twice = 0; twice < 2; ++twice)  // the second time removes what rounding left of the first
+    rest -= product(front, transposed_product(front, rest));
+  const auto [basis, sizes] = column_span(rest);
+  rest.leftCols(basis.cols()) = basis;
+  return (sizes.array() > rank_tolerance * longest).count();
 }
 
 const char* plural(Index count) {
@@ -102,8 +81,7 @@ Result<Done> check_unisolvent(const Matrix& points, int degree) {
 
   columns.conservativeResize(Eigen::NoChange, needed);
   for (Index i = 1, column = 1 + d; i <= d; ++i)
-    for (Index j = i; j <= d; ++j, ++column)
-      for (Index row = 0; row < count; ++row) columns(row, column) = columns(row, i) * columns(row, j);
+    for (Index j = i; j <= d; ++j, ++column) columns.col(column) = columns.col(i).cwiseProduct(columns.col(j));
   const Index quadratic = 1 + d + orthonormalize(columns, 1 + d);
   if (quadratic == needed) return Done{};
   return Error(HB_ERROR_POINTS_DEGENERATE,

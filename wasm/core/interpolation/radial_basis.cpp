@@ -5,7 +5,9 @@
 
 #include "core/interpolation/polynomial.hpp"
 #include "core/kernels/clamped_plate.hpp"
-#include "core/numerics/dense.hpp"
+#include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 namespace {
@@ -81,17 +83,18 @@ Result<Done> RadialBasis::set_frame(const Matrix& points, const MatrixXd& metric
   const Index d = points.cols();
   center_ = points.colwise().maxCoeff() / 2 + points.colwise().minCoeff() / 2;
   if (metric.size() != 0) {
-    MatrixXd factor = metric;
-    bool valid = metric.rows() == d && metric.cols() == d && factor_cholesky(factor);
+    bool valid = metric.rows() == d && metric.cols() == d;
     for (Index i = 0; valid && i < d; ++i)
       for (Index j = 0; j < i; ++j)
         valid = valid && std::abs(metric(i, j) - metric(j, i)) <= 1e-12 * std::abs(metric(i, i) + metric(j, j));
+    if (valid) {
+      const Cholesky cholesky(metric);
+      valid = cholesky.succeeded();
+      if (valid) linear_ = cholesky.factor().triangularView<Eigen::Lower>().transpose();
+    }
     if (!valid)
       return option_error({"The metric is not a symmetric, positive definite ", d, "×", d, " matrix."},
                           {"Give the inverse of a covariance matrix, or leave it out for Euclidean distances."});
-    linear_.setZero(d, d);
-    for (Index i = 0; i < d; ++i)
-      for (Index j = 0; j <= i; ++j) linear_(j, i) = factor(i, j);
   }
   Vector lower = Vector::Constant(d, std::numeric_limits<double>::infinity()), upper = -lower, inner(d);
   for (Index i = 0; i < points.rows(); ++i) {
@@ -173,35 +176,47 @@ double RadialBasis::plate_margin(const double* inner) const {
   return 1 - squared * inverse_squares_[0];
 }
 
-/** s² from inner_ to every center. */
-void RadialBasis::squared_distances() {
-  const Index k = centers();
+/** s² from inner_ to the centers from `first` on. */
+void RadialBasis::squared_distances(Index first) {
+  const Index k = centers(), count = k - first;
   double* __restrict out = squared_.data();
-  std::fill(out, out + k, 0.0);
+  std::fill(out, out + count, 0.0);
   for (Index axis = 0; axis < dimension(); ++axis) {
-    const double* __restrict c = centers_.data() + axis * k;
+    const double* __restrict c = centers_.data() + axis * k + first;
     const double x = inner_.data()[axis];
-    for (Index i = 0; i < k; ++i) out[i] += (x - c[i]) * (x - c[i]);
+    for (Index i = 0; i < count; ++i) out[i] += (x - c[i]) * (x - c[i]);
   }
-  const double* __restrict inverse = inverse_squares_.data();
-  for (Index i = 0; i < k; ++i) out[i] *= inverse[i];
+  const double* __restrict inverse = inverse_squares_.data() + first;
+  for (Index i = 0; i < count; ++i) out[i] *= inverse[i];
+}
+
+/** The kernels from these, which are lost. */
+void RadialBasis::kernels_of_distances(Index first, double* out) {
+  const Index count = centers() - first;
+  if (kernel_.kind == KernelKind::clamped_plate) {
+    const ClampedPlate plate{order_, dimension()};
+    const double margin = plate_margin(inner_.data());
+    for (Index i = 0; i < count; ++i) out[i] = margin > 0 ? plate.value(squared_[i], margin * plate_margins_[first + i]) : 0;
+    return;
+  }
+  kernel_.values(squared_.data(), count);
+  const double *amplitudes = amplitudes_.data() + first, *radial = squared_.data();
+  for (Index i = 0; i < count; ++i) out[i] = amplitudes[i] * radial[i];
+}
+
+void RadialBasis::kernels_from(Index first, const double* query, double* out) {
+  to_inner(query, inner_.data());
+  squared_distances(first);
+  kernels_of_distances(first, out);
 }
 
 void RadialBasis::values(const double* query, double* out) {
   const Index k = centers();
   to_inner(query, inner_.data());
   squared_distances();
-  if (kernel_.kind == KernelKind::clamped_plate) {
-    const ClampedPlate plate{order_, dimension()};
-    const double margin = plate_margin(inner_.data());
-    for (Index i = 0; i < k; ++i) out[i] = margin > 0 ? plate.value(squared_[i], margin * plate_margins_[i]) : 0;
-  } else {
-    // Far from all centers every Gaussian underflows and 0/0 would follow; the smallest exponent cancels in the quotient.
-    if (normalized_ && kernel_.kind == KernelKind::gaussian) squared_.array() -= squared_.minCoeff();
-    kernel_.values(squared_.data(), k);
-    const double *amplitudes = amplitudes_.data(), *radial = squared_.data();
-    for (Index i = 0; i < k; ++i) out[i] = amplitudes[i] * radial[i];
-  }
+  // Far from all centers every Gaussian underflows and 0/0 would follow; the smallest exponent cancels in the quotient.
+  if (normalized_ && kernel_.kind == KernelKind::gaussian) squared_.array() -= squared_.minCoeff();
+  kernels_of_distances(0, out);
   if (normalized_) {
     double sum = 0;
     for (Index i = 0; i < k; ++i) sum += out[i];
@@ -251,18 +266,13 @@ void RadialBasis::gradients(const double* query, double* out) {
   polynomial_gradients(inner_.data(), d, degree_, polynomials_.data());
   for (Index j = 0; j < tail_; ++j)
     for (Index axis = 0; axis < d; ++axis) out[axis * n + k + j] = polynomials_(axis, j);
-  // Back to the caller's axes: y = scale · Lᵀ(x − center), so ∇ₓ = scale · L ∇ᵧ.
-  for (Index i = 0; i < n; ++i) {
-    for (Index axis = 0; axis < d; ++axis) {
-      double sum = 0;
-      if (linear_.size() == 0) {
-        sum = out[axis * n + i];
-      } else {
-        for (Index row = 0; row <= axis; ++row) sum += linear_(row, axis) * out[row * n + i];
-      }
-      inner_[axis] = scale_ * sum;
-    }
-    for (Index axis = 0; axis < d; ++axis) out[axis * n + i] = inner_[axis];
+  // Back to the caller's axes: y = scale · Lᵀ(x − center), so ∇ₓ = scale · L ∇ᵧ, the last axis first, which no other needs.
+  Eigen::Map<MatrixXd> all(out, n, d);
+  all *= scale_;
+  if (linear_.size() == 0) return;
+  for (Index axis = d; axis-- > 0;) {
+    all.col(axis) *= linear_(axis, axis);
+    for (Index row = 0; row < axis; ++row) all.col(axis) += linear_(row, axis) * all.col(row);
   }
 }
 

@@ -62,6 +62,9 @@ class RadialBasis {
   /** All functions (size()) at `query` (d, the caller's coordinates). Allocates nothing. */
   void values(const double* query, double* out);
 
+  /** The kernels alone from center `first` on (centers() − first), not normalized. */
+  void kernels_from(Index first, const double* query, double* out);
+
   /** Their gradients too: out size()×d, axis after axis, in the caller's coordinates. Allocates nothing. */
   void gradients(const double* query, double* out);
 
@@ -78,7 +81,8 @@ class RadialBasis {
   Result<Done> set_widths(const RadialBasisOptions& options);
   Result<Done> set_ball(const Matrix& points);
   void to_inner(const double* query, double* inner) const;
-  void squared_distances();
+  void squared_distances(Index first = 0);
+  void kernels_of_distances(Index first, double* out);
   double plate_margin(const double* inner) const;
 
   Kernel kernel_;

@@ -7,7 +7,7 @@
 #include "core/interpolation/polynomial.hpp"
 #include "core/interpolation/robust_fit.hpp"
 #include "core/interpolation/width_choice.hpp"
-#include "core/numerics/dense.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
@@ -110,7 +110,8 @@ Rbf::Rbf(ScatteredData data, RadialBasis basis, const RbfOptions& options)
       basis_(std::move(basis)),
       options_(options),
       row_(basis_.size()),
-      gradients_(basis_.size(), basis_.dimension()) {
+      gradients_(basis_.size(), basis_.dimension()),
+      slope_(std::max(data_.points.rows(), data_.values.cols())) {
   const Matrix& points = data_.points;
   if (options_.centers.rows() == 0 && options_.weight_decay == 0) {
     fit_ = fit_interpolant(basis_, points, options_.smoothing);
@@ -134,13 +135,16 @@ void Rbf::gradient(const double* queries, Index count, double* out) {
   const Index d = dimension(), m = outputs();
   for (Index q = 0; q < count; ++q, queries += d, out += m * d) {
     basis_.gradients(queries, gradients_.data());
-    for (Index axis = 0; axis < d; ++axis) {
-      for (Index j = 0; j < m; ++j) {
-        double sum = 0;
-        for (Index i = 0; i < basis_.size(); ++i) sum += coefficients_(j, i) * gradients_(i, axis);
-        out[j * d + axis] = sum;
-      }
-    }
+    multiply_gradients(coefficients_, out);
+  }
+}
+
+/** Gradients (rows×d, row-major) of the functions with these coefficients, from those of the basis. */
+void Rbf::multiply_gradients(const MatrixXd& coefficients, double* out) {
+  const Index d = dimension(), rows = coefficients.rows();
+  for (Index axis = 0; axis < d; ++axis) {
+    multiply(coefficients, gradients_.col(axis), slope_.head(rows));
+    for (Index j = 0; j < rows; ++j) out[j * d + axis] = slope_[j];
   }
 }
 
@@ -153,18 +157,11 @@ const MatrixXd& Rbf::cardinal() {
 }
 
 void Rbf::weigh(const double* query, double* w, double* slopes) {
-  const Index n = data_.points.rows(), d = dimension();
   basis_.values(query, row_.data());
-  multiply(cardinal(), row_, Eigen::Map<Vector>(w, n));
+  multiply(cardinal(), row_, Eigen::Map<Vector>(w, data_.points.rows()));
   if (!slopes) return;
   basis_.gradients(query, gradients_.data());
-  for (Index k = 0; k < n; ++k) {
-    for (Index axis = 0; axis < d; ++axis) {
-      double sum = 0;
-      for (Index i = 0; i < basis_.size(); ++i) sum += cardinal_(k, i) * gradients_(i, axis);
-      slopes[k * d + axis] = sum;
-    }
-  }
+  multiply_gradients(cardinal_, slopes);
 }
 
 Matrix Rbf::kernel_coefficients() const {

@@ -81,6 +81,7 @@ class Rbf final : public Interpolant {
   Rbf(ScatteredData data, RadialBasis basis, const RbfOptions& options);
 
   void weigh(const double* query, double* w, double* slopes) override;
+  void multiply_gradients(const MatrixXd& coefficients, double* out);
 
   RadialBasis basis_;
   RbfOptions options_;
@@ -90,6 +91,7 @@ class Rbf final : public Interpolant {
   MatrixXd cardinal_;      // n×size(), or empty as yet
   Vector row_;             // scratch
   MatrixXd gradients_;     // size()×d, scratch
+  Vector slope_;           // as long as there are points or outputs, scratch
 };
 
 /** The largest dense matrix that is allocated: 1 GiB. */

@@ -5,8 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/numerics/householder_qr.hpp"
+#include "core/numerics/decompositions.hpp"
 #include "core/numerics/indices.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
@@ -14,22 +15,13 @@ namespace {
 /** Norms of the rows of values − design · (least squares over the `rows`, weighted by their `roots`). */
 Vector misfits(const MatrixXd& design, const Matrix& values, const Indices& rows, const Vector& roots) {
   const auto count = std::ssize(rows);
-  MatrixXd some(count, design.cols());
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < design.cols(); ++j) some(i, j) = roots[i] * design(rows[i], j);
-  const HouseholderQr qr(std::move(some));
-  Vector squared = Vector::Zero(design.rows()), x(count), rest(design.rows());
-  for (Index output = 0; output < values.cols(); ++output) {
-    for (Index i = 0; i < count; ++i) x[i] = roots[i] * values(rows[i], output);
-    qr.apply_transposed(x.data());
-    qr.solve_r(x.data());
-    for (Index i = 0; i < design.rows(); ++i) rest[i] = values(i, output);
-    for (Index j = 0; j < design.cols(); ++j)
-      for (Index i = 0; i < design.rows(); ++i) rest[i] -= x[j] * design(i, j);
-    for (Index i = 0; i < design.rows(); ++i) squared[i] += rest[i] * rest[i];
+  MatrixXd some(count, design.cols()), wanted(count, values.cols());
+  for (Index i = 0; i < count; ++i) {
+    some.row(i) = roots[i] * design.row(rows[i]);
+    wanted.row(i) = roots[i] * values.row(rows[i]);
   }
-  for (double& number : squared) number = std::sqrt(number);
-  return squared;
+  const MatrixXd fitted = product(design, Qr(std::move(some)).solve(std::move(wanted)));
+  return (values - fitted).rowwise().norm();
 }
 
 Indices all_rows(Index count) {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/numerics/dense.hpp"
 #include "core/numerics/indices.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 namespace {

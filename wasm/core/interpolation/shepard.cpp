@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/numerics/dense.hpp"
 #include "core/numerics/elementary.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 namespace {

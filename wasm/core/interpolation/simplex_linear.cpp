@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/numerics/dense.hpp"
+#include "core/numerics/decompositions.hpp"
 
 namespace handlebody {
 namespace {
@@ -15,40 +15,15 @@ constexpr double farthest = 1e150;  // diagonals: coordinates beyond are clamped
 /** Splits `offset` into its coordinates along orthonormal `axes` and, left in place, what is off their span. */
 void project(const Matrix& axes, Vector& offset, double* coordinates) {
   for (Index j = 0; j < axes.rows(); ++j) {
-    double along = 0;
-    for (Index axis = 0; axis < offset.size(); ++axis) along += axes(j, axis) * offset[axis];
-    for (Index axis = 0; axis < offset.size(); ++axis) offset[axis] -= along * axes(j, axis);
-    coordinates[j] = along;
+    coordinates[j] = axes.row(j).dot(offset);
+    offset -= coordinates[j] * axes.row(j).transpose();
   }
 }
 
-/** Orthonormal axes of what the rows of `rest` span from the origin, up to `tolerance`: Gram and Schmidt, the farthest row first.
- */
-Matrix span_axes(Matrix rest, double tolerance) {
-  const Index d = rest.cols();
-  Matrix axes(0, d);
-  Vector axis(d), coordinates(d);
-  for (;;) {
-    double longest = tolerance * tolerance;
-    bool found = false;
-    for (Index i = 0; i < rest.rows(); ++i) {
-      const double squared = rest.row(i).squaredNorm();
-      if (!(squared > longest)) continue;
-      longest = squared;
-      axis = rest.row(i).transpose();
-      found = true;
-    }
-    if (!found || axes.rows() == d) return axes;
-    project(axes, axis, coordinates.data());  // once more: what is left of a row is not orthogonal to its last digit
-    const Index next = axes.rows();
-    axes.conservativeResize(next + 1, d);
-    axes.row(next) = axis.transpose() / std::sqrt(axis.squaredNorm());
-    for (Index i = 0; i < rest.rows(); ++i) {
-      double along = 0;
-      for (Index k = 0; k < d; ++k) along += axes(next, k) * rest(i, k);
-      for (Index k = 0; k < d; ++k) rest(i, k) -= along * axes(next, k);
-    }
-  }
+/** Orthonormal axes (rows) of what the rows of `offsets` span from the origin, but for what is shorter than `tolerance`. */
+Matrix span_axes(const Matrix& offsets, double tolerance) {
+  const auto [basis, sizes] = column_span(offsets.transpose());
+  return basis.leftCols((sizes.array() > tolerance).count()).transpose();
 }
 
 }  // namespace

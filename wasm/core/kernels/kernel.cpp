@@ -199,27 +199,24 @@ int Kernel::homogeneity() const {
   }
 }
 
-int Kernel::minimum_degree() const {
-  // One less than the order of conditional positive definiteness: ⌈e/2⌉ for r^e, e/2 + 1 for r^e ln r.
+int Kernel::order() const {
   switch (kind) {
     case KernelKind::multiquadric:
-      return 0;
+      return 1;
     case KernelKind::custom:
-      return custom.minimum_degree;
+      return custom.minimum_degree + 1;
     case KernelKind::tension:
-      return tension.minimum_degree();
+      return tension.minimum_degree() + 1;
     default: {
       const int e = homogeneity();
-      return e == 0 ? -1 : e / 2;
+      return e == 0 ? 0 : e / 2 + 1;  // ⌈e/2⌉ for odd e too
     }
   }
 }
 
 double Kernel::sign() const {
-  // (−1)^⌈e/2⌉ r^e and (−1)^(e/2+1) r^e ln r are conditionally positive definite.
   if (kind == KernelKind::multiquadric) return -1;
-  const int e = homogeneity();
-  return e == 0 || (e / 2 + 1) % 2 == 0 ? 1 : -1;
+  return homogeneity() == 0 || order() % 2 == 0 ? 1 : -1;
 }
 
 int Kernel::definite_to_dimension() const {

@@ -1,8 +1,22 @@
 // Radial kernels φ(s) of s = r/width, and what is known of their definiteness. A kernel without a width ignores it.
 //
-// "Definite to dimension" says where the interpolation matrix is regular for every set of distinct points, given a polynomial tail
-// of minimum_degree() or more: Wendland, Scattered Data Approximation (2005), chapters 6–9; Fasshauer, Meshfree Approximation
+// A kernel is conditionally positive definite of order m where Σ cᵢcⱼ φ(‖xᵢ − xⱼ‖) > 0 for all distinct points and all c ≠ 0 with
+// Σ cᵢ p(xᵢ) = 0 for every polynomial p of degree below m. Some are so only times −1. With a tail of degree m − 1 or more the
+// interpolation equations are then regular, and Cholesky solves them once the side conditions are eliminated. In how many
+// dimensions that is a theorem: Wendland, Scattered Data Approximation (2005), chapters 6–9; Fasshauer, Meshfree Approximation
 // Methods with MATLAB (2007), appendix D; Buhmann, Math. Comp. 70 (2001).
+//
+//                                                        order m    sign            dimensions
+//   Gaussian, inverse multiquadric, inverse quadratic    0          1               all
+//   Wendland's (ℓ for the dimension), clamped plate      0          1               all
+//   Buhmann's                                            0          1               3
+//   linear, multiquadric                                 1          −1              all
+//   thin plate, cubic                                    2          1               all
+//   quintic                                              3          −1              all
+//   polyharmonic r^e, e odd                              ⌈e/2⌉      (−1)^⌈e/2⌉      all
+//   polyharmonic r^e ln r, e even                        e/2 + 1    (−1)^(e/2+1)    all
+//   tension                                              0 to 2     1               3
+//   compact inverse multiquadric, the caller's           unknown
 #pragma once
 
 #include "core/kernels/tension_kernel.hpp"
@@ -69,14 +83,17 @@ struct Kernel {
   /** e of φ(cr) = c^e φ(r), up to polynomials that the tail takes up; 0 for a kernel with a width. */
   int homogeneity() const;
 
-  /** Lowest polynomial degree whose tail makes interpolation well posed (−1: none needed). */
-  int minimum_degree() const;
+  /** m of the table above; where it is unknown, what the tail needs by the caller's word or by use. */
+  int order() const;
 
-  /** 1 where the kernel, −1 where its negative is (conditionally) positive definite. */
+  /** The table's sign; 1 where it is unknown. */
   double sign() const;
 
-  /** Largest dimension in which that is a theorem: 0 for none, 1000 for all. */
+  /** Largest dimension in which these are a theorem: 0 for none, 1000 for all. */
   int definite_to_dimension() const;
+
+  /** Lowest polynomial degree whose tail makes interpolation well posed (−1: none needed). */
+  int minimum_degree() const { return order() - 1; }
 
   /** Whether φ(0) = 0, so that a single kernel says nothing at its own place. */
   bool vanishes_at_center() const;

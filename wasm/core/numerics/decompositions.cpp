@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <utility>
 
 namespace handlebody {
@@ -11,7 +12,8 @@ namespace handlebody {
 Cholesky::Cholesky(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a))) {
   Eigen::Ref<MatrixXd> place(*factor_);
   llt_ = std::make_unique<Eigen::LLT<Eigen::Ref<MatrixXd>>>(place);
-  succeeded_ = llt_->info() == Eigen::Success && factor_->allFinite();
+  // Whatever is not finite below the diagonal reaches it, and what is above is not read.
+  succeeded_ = llt_->info() == Eigen::Success && factor_->diagonal().allFinite();
 }
 
 void Cholesky::compute(const MatrixXd& a) {
@@ -39,7 +41,8 @@ Lu::Lu(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a))) {
 }
 
 double Lu::rcond() const {
-  return lu_->rcond();
+  // Eigen's estimator stumbles over what a zero pivot makes of its solutions.
+  return (factor_->diagonal().array() != 0).all() ? lu_->rcond() : 0;
 }
 
 Vector Lu::solve(const Vector& b) const {
@@ -94,24 +97,88 @@ MatrixXd Qr::r() const {
   return factors_->matrix.topRows(columns()).triangularView<Eigen::Upper>();
 }
 
-void Qr::apply_transposed(MatrixXd& b) const {
+void Qr::apply_transposed(Eigen::Ref<MatrixXd> b) const {
   b.applyOnTheLeft(factors_->qr.householderQ().adjoint());
 }
 
-void Qr::apply(MatrixXd& b) const {
+void Qr::apply(Eigen::Ref<MatrixXd> b) const {
   b.applyOnTheLeft(factors_->qr.householderQ());
+}
+
+void Qr::conjugate(MatrixXd& s) const {
+  // One reflection H = I − τ v vᵀ after the other, from both sides as in tridiagonalization: H S H = S − v wᵀ − w vᵀ with
+  // w = τ S v − ½ τ² (vᵀS v) v.
+  Vector v(rows()), w(rows());
+  for (Index k = 0; k < columns(); ++k) {
+    const double tau = factors_->qr.hCoeffs()[k];
+    v.head(k).setZero();
+    v[k] = 1;
+    v.tail(rows() - k - 1) = factors_->matrix.col(k).tail(rows() - k - 1);
+    w.noalias() = s.selfadjointView<Eigen::Lower>() * (tau * v);
+    w -= (0.5 * tau * v.dot(w)) * v;
+    s.selfadjointView<Eigen::Lower>().rankUpdate(v, w, -1);
+  }
+}
+
+void Qr::solve_r(Eigen::Ref<MatrixXd> b) const {
+  factors_->matrix.topRows(columns()).triangularView<Eigen::Upper>().solveInPlace(b);
+}
+
+void Qr::solve_r_transposed(Eigen::Ref<MatrixXd> b) const {
+  factors_->matrix.topRows(columns()).transpose().triangularView<Eigen::Lower>().solveInPlace(b);
 }
 
 MatrixXd Qr::solve(MatrixXd b) const {
   apply_transposed(b);
   MatrixXd x = b.topRows(columns());
-  factors_->matrix.topRows(columns()).triangularView<Eigen::Upper>().solveInPlace(x);
+  solve_r(x);
   return x;
 }
 
 double Qr::rcond() const {
   const MatrixXd upper = r();
-  return Eigen::internal::rcond_estimate_helper(upper.cwiseAbs().colwise().sum().maxCoeff(), Triangle{upper});
+  if (!(upper.diagonal().array() != 0).all()) return 0;
+  return Eigen::internal::rcond_estimate_helper(one_norm(upper), Triangle{upper});
+}
+
+ColumnSpan column_span(MatrixXd a) {
+  const Index count = std::min(a.rows(), a.cols());
+  if (count == 0) return {MatrixXd(a.rows(), 0), Vector()};
+  const Eigen::ColPivHouseholderQR<Eigen::Ref<MatrixXd>> qr(a);
+  MatrixXd basis = MatrixXd::Identity(a.rows(), count);
+  basis.applyOnTheLeft(qr.householderQ());
+  return {std::move(basis), qr.matrixQR().diagonal().cwiseAbs()};
+}
+
+// ---- norms ------------------------------------------------------------------------------------------------------------------
+
+double one_norm(const Eigen::Ref<const MatrixXd>& a) {
+  return a.cols() == 0 ? 0 : a.cwiseAbs().colwise().sum().maxCoeff<Eigen::PropagateNaN>();
+}
+
+namespace {
+
+/** What Eigen's estimator asks of a decomposition. */
+struct Solver {
+  using MatrixType = MatrixXd;
+  using Scalar = double;
+  using RealScalar = double;
+
+  const SymmetricInverse& inverse;
+
+  Index rows() const { return inverse.rows(); }
+  Index cols() const { return inverse.rows(); }
+  const Solver& adjoint() const { return *this; }
+  Vector solve(Vector x) const {
+    inverse.apply(x);
+    return x;
+  }
+};
+
+}  // namespace
+
+double inverse_norm_estimate(const SymmetricInverse& inverse) {
+  return Eigen::internal::rcond_invmatrix_L1_norm_estimate(Solver{inverse});
 }
 
 // ---- eigenvalues ------------------------------------------------------------------------------------------------------------

@@ -77,8 +77,15 @@ class Qr {
   MatrixXd r() const;
 
   /** B ← QᵀB or Q B (m×k). */
-  void apply_transposed(MatrixXd& b) const;
-  void apply(MatrixXd& b) const;
+  void apply_transposed(Eigen::Ref<MatrixXd> b) const;
+  void apply(Eigen::Ref<MatrixXd> b) const;
+
+  /** S ← QᵀSQ for a symmetric matrix (m×m), of which the lower triangle is read and written. */
+  void conjugate(MatrixXd& s) const;
+
+  /** B ← R⁻¹B or R⁻ᵀB (n×k). */
+  void solve_r(Eigen::Ref<MatrixXd> b) const;
+  void solve_r_transposed(Eigen::Ref<MatrixXd> b) const;
 
   /** argmin ‖A X − B‖ (n×k) for B (m×k). Not finite where columns of A depend on each other. */
   MatrixXd solve(MatrixXd b) const;
@@ -90,6 +97,32 @@ class Qr {
   struct Factors;
   std::unique_ptr<Factors> factors_;
 };
+
+/** A P = Q R with column pivoting, which tells the span of A's columns (m×n): an orthonormal basis of it stands in front of Q's
+ * min(m, n) columns, as many as there are `sizes` |Rₖₖ| above a tolerance, and these fall. Eigen::ColPivHouseholderQR. */
+struct ColumnSpan {
+  MatrixXd basis;
+  Vector sizes;
+};
+
+ColumnSpan column_span(MatrixXd a);
+
+/** ‖A‖₁, the largest sum of the absolute values of a column; 0 of a matrix without any, NaN where any number is. */
+double one_norm(const Eigen::Ref<const MatrixXd>& a);
+
+/** A symmetric matrix's inverse that is known by what it does to a vector. */
+class SymmetricInverse {
+ public:
+  virtual Index rows() const = 0;
+  virtual void apply(Vector& x) const = 0;  // x ← A⁻¹ x
+
+ protected:
+  ~SymmetricInverse() = default;
+};
+
+/** ‖A⁻¹‖₁ or a little less, rarely by more than a factor of three, from a handful of products (Hager 1984; Higham, ACM TOMS 14,
+ * 1988). Eigen's estimator of condition numbers, for what is not one of its decompositions. */
+double inverse_norm_estimate(const SymmetricInverse& inverse);
 
 /** A = V diag(λ) Vᵀ of a symmetric matrix (n×n), of which the lower triangle is read: λ ascending, V's columns orthonormal.
  *  Eigen::SelfAdjointEigenSolver. */

@@ -127,27 +127,6 @@ void multiply(const MatrixXd& a, const Vector& x, Eigen::Ref<Vector> out) {
   add_columns(out.data(), a.rows(), a.data(), a.rows(), x.data(), 1, a.cols(), 1);
 }
 
-double safe_norm(const Vector& x) {
-  double largest = 0;
-  for (const double number : x) largest = std::abs(number) > largest || std::isnan(number) ? std::abs(number) : largest;
-  if (!(largest > 0) || !std::isfinite(largest)) return largest;
-  double sum = 0;
-  for (const double number : x) sum += number / largest * (number / largest);
-  return largest * std::sqrt(sum);
-}
-
-double safe_distance(const double* x, const double* y, Index dimension) {
-  double squared = 0;
-  for (Index i = 0; i < dimension; ++i) squared += (x[i] - y[i]) * (x[i] - y[i]);
-  if (squared > 1e-280 && squared < 1e280) return std::sqrt(squared);
-  double largest = 0;
-  for (Index i = 0; i < dimension; ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
-  if (!(largest > 0) || !std::isfinite(largest)) return largest;
-  squared = 0;
-  for (Index i = 0; i < dimension; ++i) squared += (x[i] - y[i]) / largest * ((x[i] - y[i]) / largest);
-  return largest * std::sqrt(squared);
-}
-
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   MatrixXd out = MatrixXd::Zero(a.rows(), b.cols());
   for (Index j = 0; j < b.cols(); ++j) add_columns(&out(0, j), a.rows(), a.data(), a.rows(), &b(0, j), 1, a.cols(), 1);

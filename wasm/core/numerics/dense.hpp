@@ -43,10 +43,4 @@ void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, MatrixXd
 /** x ← a⁻¹ x from a's factor, for one vector: solves from the left. */
 void solve_lu(const MatrixXd& factor, const std::vector<Index>& pivots, double* x);
 
-/** ‖x‖ that neither overflows nor vanishes before it has to (Eigen's stableNorm() is 1.5 kB of code for every expression). */
-double safe_norm(const Vector& x);
-
-/** ‖x − y‖ likewise. Infinite where a coordinate's difference is. */
-double safe_distance(const double* x, const double* y, Index dimension);
-
 }  // namespace handlebody

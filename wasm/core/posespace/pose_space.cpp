@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/numerics/dense.hpp"
+#include "core/numerics/safe_norm.hpp"
 
 namespace handlebody {
 
