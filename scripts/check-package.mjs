@@ -67,10 +67,14 @@ function tryCommand(folder) {
 }
 
 const TYPES = `
-import { type BodyData, load } from 'handlebody';
+import { type BodyData, type ErrorCode, load } from 'handlebody';
 import { load as loadExternal } from 'handlebody/external';
+import type { FileErrorCode } from 'handlebody/gltf-transform';
 export const body: Promise<BodyData> = load().then((hb) => hb.bake({ positions: new Float64Array(9), triangles: new Uint32Array(3) }));
 export const other: typeof load = loadExternal;
+export const codes: ErrorCode[] = ['mesh-open', 'file-not-glb' satisfies FileErrorCode];
+// @ts-expect-error: misspelt
+export const misspelt: ErrorCode = 'file-nto-glb';
 `;
 
 /** @param {string} folder @param {'NodeNext' | 'Bundler'} resolution */
@@ -79,7 +83,7 @@ const tsconfig = (folder, resolution) => ({
     target: 'ES2022',
     module: resolution === 'Bundler' ? 'ESNext' : 'NodeNext',
     moduleResolution: resolution,
-    lib: ['ES2023', 'ESNext.Disposable', 'DOM'],
+    lib: ['ES2023', 'ESNext.Disposable', 'ESNext.Float16', 'DOM'],
     types: [],
     strict: true,
     noEmit: true,

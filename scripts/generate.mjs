@@ -46,6 +46,9 @@ function structLayouts(header) {
   return layouts.join('\n');
 }
 
+/** The most arguments that a call may take: beyond, they are too easily swapped, and a struct names them. */
+const MOST_ARGUMENTS = 8;
+
 /** @param {string} header */
 function exportSignatures(header) {
   return [...withoutComments(header).matchAll(/^HB_API (.+?)(hb_\w+)\((.*)\);$/gm)].map(([, type, name, parameters]) => {
@@ -53,6 +56,7 @@ function exportSignatures(header) {
       parameters === 'void'
         ? []
         : /** @type {string} */ (parameters).split(',').map((p) => `${p.trim().match(/(\w+)$/)?.[1]}: number`);
+    if (names.length > MOST_ARGUMENTS) throw new Error(`generate: ${name} takes ${names.length} arguments; put some into a struct`);
     return `  ${name}(${names.join(', ')}): ${/** @type {string} */ (type).trim() === 'void' ? 'void' : 'number'};`;
   });
 }
@@ -79,8 +83,8 @@ export const ERROR_CODES = {
 ${map(codes)}
 } as const;
 
-/** Stable names of everything that can go wrong. */
-export type ErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
+/** Stable names of what can go wrong in the solver. */
+export type SolverErrorCode = (typeof ERROR_CODES)[keyof typeof ERROR_CODES];
 
 export const WARNING_CODES = {
 ${map(warnings)}

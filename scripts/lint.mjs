@@ -24,6 +24,7 @@ const CHECKS = [
   // The library first: what runs on dist/ is checked against its declarations.
   ['types', async () => (await node(at('scripts', 'build.mjs'), 'library')) || node(tool('typescript', 'bin', 'tsc'), '--noEmit')],
   ['layers', () => node(at('scripts', 'lint-layers.mjs'))],
+  ['tests', () => node(at('scripts', 'lint-tests.mjs'))],
   ['words', lintWords],
   ['clang-format', clangFormat],
   ['clang-tidy', clangTidy],

@@ -8,8 +8,10 @@ const root = fileURLToPath(new URL('..', import.meta.url));
 const folder = path.join(root, 'build', 'readme');
 const text = (file: string) => readFileSync(path.join(root, file), 'utf8');
 
-/** Every TypeScript block of the README, as a module that hands out its results. */
-const examples = [...text('README.md').matchAll(/^```ts\n([\s\S]*?)^```$/gm)].map((match, index) => ({
+const PAGES = ['README.md', 'wasm/ts/README.md', 'web/cli/README.md', 'tests/bench/README.md', 'CONTRIBUTING.md'];
+
+/** Every TypeScript block of the README and of the library's page, as a module that hands out its results. */
+const examples = [...PAGES.map(text).join('\n').matchAll(/^```ts\n([\s\S]*?)^```$/gm)].map((match, index) => ({
   code: match[1] ?? '',
   file: path.join(folder, `example-${index + 1}.ts`),
 }));
@@ -116,12 +118,12 @@ describe("the README's examples", () => {
 });
 
 describe('the documents', () => {
-  it.each(['README.md', 'CONTRIBUTING.md'])('%s links to files that are there', (file) => {
+  it.each(PAGES)('%s links to files that are there', (file) => {
     const links = [...text(file).matchAll(/\]\((?!https?:|#|mailto:)([^)#\s]+)/g)].map((match) => match[1] ?? '');
-    expect(links.filter((link) => !existsSync(path.join(root, link)))).toEqual([]);
+    expect(links.filter((link) => !existsSync(path.join(root, path.dirname(file), link)))).toEqual([]);
   });
 
-  it.each(['README.md', 'CONTRIBUTING.md'])('%s names only npm scripts that exist', (file) => {
+  it.each(PAGES)('%s names only npm scripts that exist', (file) => {
     const known = Object.keys(JSON.parse(text('package.json')).scripts);
     const named = [...text(file).matchAll(/npm (?:run )?(start|test|(?<=run )[\w:-]+)/g)].map((match) => match[1] ?? '');
     expect(named.filter((name) => !known.includes(name))).toEqual([]);

@@ -39,7 +39,7 @@ Baked bake(const Points& positions, const Triangles& triangles, const BakeOption
   }
   double progress = 0;
   while (progress < 1) {
-    auto step = begun->step();
+    auto step = (*begun)->step();
     if (!step) {
       baked.code = step.error().code;
       return baked;
@@ -47,7 +47,7 @@ Baked bake(const Points& positions, const Triangles& triangles, const BakeOption
     CHECK(*step >= progress);
     progress = *step;
   }
-  baked.body = begun->body(), baked.warnings = begun->warnings();
+  baked.body = (*begun)->body(), baked.warnings = (*begun)->warnings();
   CHECK(check_body(baked.body));
   return baked;
 }

@@ -43,9 +43,7 @@ BoundedWeights finished(const Problem& problem, const BoundedWeightsOptions& opt
 }
 
 Matrix forces(const Problem& problem, const Matrix& w) {
-  Matrix image(w.rows(), w.cols());
-  problem.energy.multiply(w.data(), w.cols(), image.data());
-  return image;
+  return problem.energy * w;
 }
 
 double energy_of(const Problem& problem, const Matrix& w) {
@@ -252,7 +250,7 @@ TEST_CASE("bounded weights need something held in every part") {
   Problem problem = made(square(6, 1, random), {{0}, {0}, 1});
   problem.held = {{}, {}, 1};
   problem.unbounded.setConstant(0.5);  // no weights at all
-  problem.energy.values.assign(problem.energy.values.size(), -1);
+  problem.energy.coeffs() = -1;
   const auto weights = BoundedWeights::create(problem.energy, problem.mass, problem.held, problem.unbounded);
   REQUIRE(!weights);
   CHECK(weights.error().code == HB_ERROR_SYSTEM_SINGULAR);

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <random>
 
-#include "core/numerics/orthogonal_columns.hpp"
-
 using namespace handlebody;
 
 namespace {
@@ -102,21 +100,5 @@ TEST_CASE("closest rotation: a rotation is its own, whatever the scale (seed 43)
       const Matrix3 r = random_rotation(random);
       CHECK((closest_rotation(scale * r) - r).cwiseAbs().maxCoeff() < 1e-14);
     }
-  }
-}
-
-TEST_CASE("orthogonal columns: singular values of any matrix, longest first; eigenvectors of a semidefinite one (seed 44)") {
-  std::mt19937 random(44);
-  for (int trial = 0; trial < 500; ++trial) {
-    Matrix3 a = random_matrix(random);
-    if (trial % 3 == 1) a.col(2) = a.col(0) - 2 * a.col(1);
-    const bool semidefinite = trial % 2 == 1;
-    if (semidefinite) a = (a * a.transpose()).eval();
-    const auto [columns, v] = orthogonal_columns(a);
-    CHECK((v.transpose() * v - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-14);
-    CHECK((a * v - columns).norm() < 1e-14 * a.norm());
-    const Vector3 sigma = Eigen::JacobiSVD<Matrix3>(a).singularValues();
-    CHECK((columns.colwise().norm().transpose() - sigma).norm() < 1e-14 * sigma[0]);
-    if (semidefinite) CHECK((v * sigma.asDiagonal() * v.transpose() - a).norm() < 1e-13 * sigma[0]);
   }
 }

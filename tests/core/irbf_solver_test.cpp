@@ -22,11 +22,11 @@ Body bar(Index centers, int spheres) {
   auto bake = Bake::begin(mesh.positions, mesh.triangles, options);
   REQUIRE(bake);
   for (double progress = 0; progress < 1;) {
-    auto step = bake->step();
+    auto step = (*bake)->step();
     REQUIRE(step);
     progress = *step;
   }
-  return bake->body();
+  return (*bake)->body();
 }
 
 Points corners() {

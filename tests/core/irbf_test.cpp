@@ -27,12 +27,12 @@ Body bar(Index centers = 60, double scale = 1) {
   REQUIRE(bake);
   double progress = 0;
   while (progress < 1) {
-    auto step = bake->step();
+    auto step = (*bake)->step();
     REQUIRE(step);
     CHECK(*step >= progress);
     progress = *step;
   }
-  return bake->body();
+  return (*bake)->body();
 }
 
 std::unique_ptr<Irbf> prepared(const Body& body, const Points& handles, const IrbfOptions& options = {}) {
@@ -104,7 +104,7 @@ TEST_CASE("a bent bar reaches its anchors and keeps its volume") {
   REQUIRE(report);
   CHECK(report->anchor_error < 1e-3 * body.normalization.diagonal);
   const double ratio =
-      test::enclosed_volume(deformed(*irbf), body.triangles) / test::enclosed_volume(body.positions, body.triangles);
+      enclosed_volume(deformed(*irbf), body.triangles) / enclosed_volume(body.positions, body.triangles);
   CHECK(ratio > 0.95);
   CHECK(ratio < 1.05);
 }
@@ -251,7 +251,7 @@ TEST_CASE("meshes that cannot be baked are refused by name") {
     auto bake = Bake::begin(positions, triangles, options);
     if (!bake) return bake.error().code;
     for (double progress = 0; progress < 1;) {
-      auto step = bake->step();
+      auto step = (*bake)->step();
       if (!step) return step.error().code;
       progress = *step;
     }

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "core/mesh/enclosed_volume.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody::test {
@@ -49,16 +50,6 @@ inline MadeMesh made_box(const Vector3& size, const std::array<int, 3>& cells) {
   for (std::size_t p = 0; p < points.size(); ++p) mesh.positions.row(static_cast<Index>(p)) = points[p];
   mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Index>(corners.size() / 3), 3);
   return mesh;
-}
-
-/** Volume enclosed by a closed mesh (divergence theorem). */
-inline double enclosed_volume(const Points& positions, const Triangles& triangles) {
-  double sum = 0;
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)), c = positions.row(triangles(t, 2));
-    sum += a.dot(Vector3(b.y() * c.z() - b.z() * c.y(), b.z() * c.x() - b.x() * c.z(), b.x() * c.y() - b.y() * c.x()));
-  }
-  return sum / 6;
 }
 
 }  // namespace handlebody::test

@@ -72,10 +72,8 @@ TEST_CASE("the operators are libigl's to 1e-10") {
     const SparseMatrix laplacian = cotangent_laplacian(mesh);
     const std::vector<double> rows = oracle_numbers(line, "rows"), columns = oracle_numbers(line, "columns"),
                               entries = oracle_numbers(line, "entries");
-    Matrix ours = Matrix::Zero(laplacian.rows(), laplacian.rows()), theirs = ours;
-    for (Index i = 0; i < laplacian.rows(); ++i)
-      for (std::uint32_t k = laplacian.starts[i]; k < laplacian.starts[static_cast<std::size_t>(i) + 1]; ++k)
-        ours(i, laplacian.columns[k]) = laplacian.values[k];
+    const Matrix ours = laplacian;
+    Matrix theirs = Matrix::Zero(ours.rows(), ours.cols());
     for (std::size_t k = 0; k < rows.size(); ++k) {
       theirs(static_cast<Index>(rows[k]), static_cast<Index>(columns[k])) = entries[k];
       theirs(static_cast<Index>(columns[k]), static_cast<Index>(rows[k])) = entries[k];

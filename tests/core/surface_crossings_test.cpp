@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "core/distance/filled_shell.hpp"
-#include "core/mesh/consistent_orientation.hpp"
 #include "core/mesh/triangle_tree.hpp"
 #include "made_domains.hpp"
 #include "made_meshes.hpp"
@@ -76,43 +74,4 @@ TEST_CASE("lines through vertices and along edges and faces cross a closed surfa
     }
     CHECK(met == 16);  // of the 5 × 5 lines that touch it, those along two of its sides count as beside it
   }
-}
-
-TEST_CASE("triangles are turned to agree, and closed parts face outward (seed 4)") {
-  const test::MadeMesh box = test::made_box({2, 1, 1}, {6, 3, 3});
-  Triangles triangles = box.triangles;
-  CHECK(orient_consistently(box.positions, triangles).closed);
-  CHECK(triangles == box.triangles);
-  std::mt19937 random(4);
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    if (random() % 2) std::swap(triangles(t, 1), triangles(t, 2));
-  }
-  const Orientation repaired = orient_consistently(box.positions, triangles);
-  CHECK(repaired.closed);
-  CHECK(repaired.open_edges == 0);
-  CHECK(repaired.turned > 30);
-  CHECK(test::enclosed_volume(box.positions, triangles) == doctest::Approx(2));
-
-  Triangles open = box.triangles.bottomRows(box.triangles.rows() - 1);
-  CHECK(orient_consistently(box.positions, open).open_edges == 3);
-  CHECK(open == box.triangles.bottomRows(box.triangles.rows() - 1));
-}
-
-TEST_CASE("a shell of voxels with small holes is filled, one with a missing side is not") {
-  const Grid grid{{0, 0, 0}, 1, {20, 20, 20}};
-  const auto shell = [&](int hole) {
-    std::vector<std::uint32_t> voxels;
-    for (std::int64_t c = 0; c < grid.size(); ++c) {
-      const auto [i, j, k] = grid.cell(c);
-      const bool within = std::min({i, j, k}) >= 3 && std::max({i, j, k}) <= 16;
-      const bool deep = std::min({i, j, k}) > 3 && std::max({i, j, k}) < 16;
-      const bool open = k == 16 && std::abs(i - 9) <= hole && std::abs(j - 9) <= hole;
-      if (within && !deep && !open) voxels.push_back(static_cast<std::uint32_t>(c));
-    }
-    return voxels;
-  };
-  CHECK(filled_shell(grid, shell(-1)).size() == 14 * 14 * 14);
-  CHECK(filled_shell(grid, shell(1)).size() == 14 * 14 * 14);
-  CHECK(filled_shell(grid, shell(9)).empty());
-  CHECK(filled_shell(grid, {}).empty());
 }

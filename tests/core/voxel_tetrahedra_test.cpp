@@ -41,7 +41,7 @@ test::MadeMesh tube(std::mt19937& random) {
 TEST_CASE("tetrahedra fill what the surface touches or encloses, and fit together (seed 2110)") {
   std::mt19937 random(2110);
   const test::MadeMesh surface = tube(random);
-  const double enclosed = std::abs(test::enclosed_volume(surface.positions, surface.triangles));
+  const double enclosed = std::abs(enclosed_volume(surface.positions, surface.triangles));
   double former = 1e9;
   for (const int resolution : {8, 20, 40}) {
     const auto made = make_voxel_tetrahedra({surface.positions, surface.triangles}, resolution);

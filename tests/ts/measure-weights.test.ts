@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { type Handlebody, load } from '../../wasm/ts/index.ts';
+import { type Handlebody, HandlebodyError, load, type WeightHandle } from '../../wasm/ts/index.ts';
 import { errorOf } from './support/scattered.ts';
 
 let hb: Handlebody;
@@ -104,5 +104,93 @@ describe('measures of weights', () => {
   it('refuse weights that are no list of rows', () => {
     expect(errorOf(() => hb.measureWeights(fork, handles, [1, 2, 3])).code).toBe('invalid-shape');
     expect(errorOf(() => hb.measureWeights(fork, [], [])).code).toBe('invalid-shape');
+  });
+
+  it('refuse what cannot be measured, by name, and take no memory', () => {
+    const { positions, triangles } = shape(1, 1, () => true);
+    const count = positions.length / 2;
+    const sound = Array(count).fill(1);
+    const before = hb.memory;
+    const refused = (
+      mesh: object,
+      { held = [{ vertex: 0 }], weights = sound }: { held?: WeightHandle[]; weights?: number[] } = {},
+    ) => {
+      const { code, culprit, message, remedy } = errorOf(() =>
+        hb.measureWeights({ positions, triangles, dimension: 2, ...mesh }, held, weights),
+      );
+      expect(message).toMatch(/^[A-Z0-9].*\.$/);
+      expect(remedy).toMatch(/^[A-Z].*\.$/);
+      return [code, culprit?.kind, culprit?.index];
+    };
+    expect(refused({ positions: positions.with(7, Number.NaN) })).toEqual(['mesh-not-finite', 'vertex', 3]);
+    expect(refused({ triangles: triangles.with(4, count) })).toEqual(['mesh-index-out-of-range', 'triangle', 1]);
+    expect(refused({ triangles: triangles.with(4, -1) })).toEqual(['mesh-index-out-of-range', 'triangle', 1]);
+    expect(refused({ triangles: [] })).toEqual(['mesh-no-triangles', undefined, undefined]);
+    expect(refused({ positions: positions.map(() => 1) })).toEqual(['mesh-zero-extent', undefined, undefined]);
+    expect(refused({}, { held: [{ vertex: count }] })).toEqual(['handle-out-of-range', 'handle', 0]);
+    expect(refused({}, { held: [{ at: [2, 2] }] })).toEqual(['handle-outside', 'handle', 0]);
+    expect(refused({}, { weights: sound.with(5, Number.NaN) })).toEqual(['value-not-finite', 'vertex', 5]);
+    expect(refused({}, { weights: sound.with(5, Number.NEGATIVE_INFINITY) })).toEqual(['value-not-finite', 'vertex', 5]);
+    expect(hb.memory).toBe(before);
+  });
+
+  it('of handles that share a vertex, or hold none, are taken all the same', () => {
+    const square = shape(1, 1, () => true);
+    const count = square.positions.length / 2;
+    const weights = Array.from({ length: 2 * count }, (_, i) => (i % 2 ? 0.25 : 0.75));
+    for (const second of [{ vertex: 0 }, { vertices: [] }])
+      expect(hb.measureWeights(square, [{ vertex: 0 }, second], weights)).toMatchObject({
+        sumError: 0,
+        least: 0.25,
+        largest: 0.75,
+        gradientJump: 0,
+        support: [1, 1],
+      });
+  });
+
+  it('of anything are numbers or a sentence (seed 1144)', () => {
+    const { positions, triangles } = shape(1, 1, () => true);
+    const count = positions.length / 2;
+    const number = fc.oneof(fc.double(), fc.integer({ min: -3, max: 3 }));
+    const index = fc.oneof(fc.integer({ min: 0, max: count - 1 }), fc.integer(), fc.double());
+    /** A few entries of a list become others. */
+    const wrong = (length: number, entry: fc.Arbitrary<number>) =>
+      fc.array(fc.tuple(fc.nat(length - 1), entry), { maxLength: 4 }).map((changes) => (list: readonly number[]) => {
+        const copy = [...list];
+        for (const [at, value] of changes) copy[at] = value;
+        return copy;
+      });
+    const handle = fc.oneof(
+      fc.record({ vertex: index }),
+      fc.record({ vertices: fc.array(index, { maxLength: 3 }) }),
+      fc.record({ at: fc.tuple(number, number) }),
+    );
+    const seen = { measured: 0, refused: 0 };
+    fc.assert(
+      fc.property(
+        wrong(positions.length, number),
+        wrong(triangles.length, index),
+        wrong(2 * count, number),
+        fc.array(handle, { maxLength: 2 }),
+        (move, link, weigh, held) => {
+          try {
+            const mesh = { positions: move(positions), triangles: link(triangles), dimension: 2 } as const;
+            const weights = weigh(Array(2 * count).fill(0.5)).slice(0, held.length * count);
+            const { support, holds: _, leakedWeight, ...measures } = hb.measureWeights(mesh, held, weights);
+            for (const measure of [...Object.values(measures), ...support]) expect(measure).not.toBeNaN();
+            expect(Math.min(...support)).toBeGreaterThanOrEqual(0);
+            expect(Math.max(...support)).toBeLessThan(1 + 1e-9);
+            expect(leakedWeight).not.toBeLessThan(0);
+            seen.measured++;
+          } catch (error) {
+            if (!(error instanceof HandlebodyError)) throw error;
+            expect(error.code).not.toMatch(/internal|trapped/);
+            seen.refused++;
+          }
+        },
+      ),
+      { seed: 1144, numRuns: 1000 },
+    );
+    expect(Math.min(seen.measured, seen.refused)).toBeGreaterThan(50);
   });
 });

@@ -11,8 +11,8 @@ using handlebody::ConstPoints;
 
 /** Owns the bake, and the flat copies that hb_body points at. */
 struct hb_bake {
-  explicit hb_bake(Bake begun) : bake(std::move(begun)) {}
-  Bake bake;
+  explicit hb_bake(std::unique_ptr<Bake> begun) : bake(std::move(begun)) {}
+  std::unique_ptr<Bake> bake;
   std::vector<double> spheres;
 };
 
@@ -58,17 +58,17 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
 }
 
 int32_t hb_bake_step(hb_bake* bake, double* progress) {
-  auto done = bake->bake.step();
+  auto done = bake->bake->step();
   if (!done) return handlebody::fail(done.error());
   *progress = *done;
   return HB_OK;
 }
 
 int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
-  if (!bake->bake.finished()) {
+  if (!bake->bake->finished()) {
     return handlebody::fail({HB_ERROR_INTERNAL, {"The bake is not finished."}, {"Step it until its progress is 1."}});
   }
-  const handlebody::Body& body = bake->bake.body();
+  const handlebody::Body& body = bake->bake->body();
   bake->spheres.clear();
   for (const auto& sphere : body.spheres) {
     bake->spheres.insert(bake->spheres.end(), {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
@@ -97,7 +97,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
 }
 
 uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* out) {
-  const auto& warnings = bake->bake.warnings();
+  const auto& warnings = bake->bake->warnings();
   if (index < warnings.size()) {
     const handlebody::BakeWarning& warning = warnings[index];
     out->code = warning.code;

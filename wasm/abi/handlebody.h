@@ -224,20 +224,37 @@ HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double*
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
-/* Splines with tension in 1, 2 or 3 dimensions: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space,
- * through the points for a smoothing of 0. `ends` 0: that; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only,
- * with zero slope at both ends and constant beyond. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+/* Options of hb_tension_spline_create: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space, through the
+ * points for a smoothing of 0. */
+typedef struct hb_tension_spline_options {
+  double alpha;     /* ≥ 0, and above 0 except in 1 dimension */
+  double beta;      /* ≥ 0 */
+  double gamma;     /* ≥ 0 */
+  double smoothing; /* ≥ 0 */
+  uint32_t ends;    /* 0: as above; 1: in 1 dimension with gamma and smoothing 0, over the points' interval only, with zero slope at both
+                       ends and constant beyond */
+} hb_tension_spline_options;
+
+/* Splines with tension in 1, 2 or 3 dimensions. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
  * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
-HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double alpha, double beta, double gamma, double smoothing, uint32_t ends, hb_interpolant** interpolant);
+HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_tension_spline_options* options, hb_interpolant** interpolant);
 
 /* Shepard's method with weights (r + epsilon)^-power. */
 HB_API int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, double power, double epsilon, hb_interpolant** interpolant);
 
-/* Moving least squares: at every query a polynomial of `degree` 0 to 2, fitted by `weight` 0 (r + epsilon)^-power, 1 exp(-(r/width)²) or
- * 2 (1 - r/width)⁴₊ (4r/width + 1). A `width` of 0 is chosen from the spacing; `used_width`, or NULL, tells which (0 for weight 0). Fails
- * with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the points do not determine a polynomial of the degree,
- * INVALID_OPTION or OUT_OF_MEMORY. */
-HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon, double width, double* used_width, hb_interpolant** interpolant);
+/* Options of hb_moving_least_squares_create. */
+typedef struct hb_moving_least_squares_options {
+  double power;    /* > 0, of weight 0 */
+  double epsilon;  /* ≥ 0, of weight 0, units of the points */
+  double width;    /* > 0, of the other weights, units of the points; 0 is chosen from the spacing */
+  int32_t degree;  /* of the polynomials, 0 to 2 */
+  uint32_t weight; /* 0 (r + epsilon)^-power, 1 exp(-(r/width)²), 2 (1 - r/width)⁴₊ (4r/width + 1) */
+} hb_moving_least_squares_options;
+
+/* Moving least squares: at every query a polynomial, fitted to the points by weights that fall with their distance. `used_width`, or NULL,
+ * tells which width was taken (0 for weight 0). Fails with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the
+ * points do not determine a polynomial of the degree, INVALID_OPTION or OUT_OF_MEMORY. */
+HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_moving_least_squares_options* options, double* used_width, hb_interpolant** interpolant);
 
 /* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
  * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
@@ -294,11 +311,22 @@ HB_API int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out);
 HB_API int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out);
 HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
 
-/* Looks for bad data by the RBF of `options`. `method` 0 row sums of the function norm, 1 what the norm loses without the point, 2 distance
- * from the smoothed interpolant; taken out one after another while the highest score is more than `threshold` robust standard
- * deviations above the median, `most` at the most. `scores` count; `outliers` and `heights` have room for `most`; `smoothing` the one
- * used. Fails as hb_rbf_create does. */
-HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores, uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing);
+/* What to look for, the first three of them; and where hb_find_outliers writes what it finds. */
+typedef struct hb_outlier_search {
+  double threshold;       /* robust standard deviations above the median score */
+  uint32_t method;        /* scores: 0 row sums of the function norm, 1 what the norm loses without the point, 2 distance from the smoothed
+                             interpolant */
+  uint32_t most;          /* outliers to take out, and what `outliers` and `heights` have room for */
+  double* scores;         /* one a point, before any is taken out */
+  uint32_t* outliers;     /* points, as they were found */
+  double* heights;        /* the score of each when it was found, in robust standard deviations above the median */
+  double smoothing;       /* the one used */
+  uint32_t outlier_count; /* of `outliers` and `heights` */
+} hb_outlier_search;
+
+/* Looks for bad data by the RBF of `options`: takes out one point after another, while the highest score is above the threshold. Fails as
+ * hb_rbf_create does, and then leaves `search` as it was. */
+HB_API int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, hb_outlier_search* search);
 
 /* ---- discrete Green's functions: where kernels come from ----------------------------------------------------------------- */
 
@@ -352,6 +380,24 @@ HB_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
 
 /* ---- skinning weights ------------------------------------------------------------------------------------------------------ */
 
+/* A mesh that weights and deformations live on: triangles (3 corners) in 2 or 3 dimensions, tetrahedra (4) in 3. */
+typedef struct hb_simplex_mesh {
+  const double* positions;   /* vertex_count × dimension */
+  const uint32_t* simplices; /* simplex_count × corners vertex numbers */
+  uint32_t vertex_count;
+  uint32_t dimension;
+  uint32_t simplex_count;
+  uint32_t corners;
+} hb_simplex_mesh;
+
+/* Which vertices handles hold: handle owners[k] holds vertices[k]. */
+typedef struct hb_held_vertices {
+  const uint32_t* vertices;
+  const uint32_t* owners; /* below handle_count */
+  uint32_t count;         /* of both lists */
+  uint32_t handle_count;
+} hb_held_vertices;
+
 /* Weights of handles on a mesh: 1 at the handle's own vertices, 0 at the others', smoothest in between. */
 typedef struct hb_skinning_weights hb_skinning_weights;
 
@@ -369,15 +415,13 @@ typedef struct hb_sparse_matrix {
   const double* values;
 } hb_sparse_matrix;
 
-/* The operators of a mesh of `vertex_count` × `dimension` positions and `simplex_count` × `corners` indices: triangles (3 corners) in 2 or 3
- * dimensions, tetrahedra (4) in 3. `order` 1 harmonic (least ∫|∇w|²), 2 biharmonic (∫(Δw)²), 3 triharmonic (∫|∇Δw|²); `mass` 0 Voronoi, mixed
- * where obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
-HB_API int32_t hb_skinning_weights_create(const double* positions, uint32_t vertex_count, uint32_t dimension, const uint32_t* simplices, uint32_t simplex_count, uint32_t corners, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
+/* The operators of a mesh. `order` 1 harmonic (least ∫|∇w|²), 2 biharmonic (∫(Δw)²), 3 triharmonic (∫|∇Δw|²); `mass` 0 Voronoi, mixed where
+ * obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
+HB_API int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
 
-/* Handle owners[k] holds vertices[k]; each of `handle_count` holds one or more. Solves, the first time by factoring, later by small updates where
- * that is less work. Fails with HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT (two on one vertex), OUT_OF_MEMORY or SYSTEM_SINGULAR, and
- * keeps the former weights. */
-HB_API int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count);
+/* Each handle holds one vertex or more. Solves, the first time by factoring, later by small updates where that is less work. Fails with
+ * HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT (two on one vertex), OUT_OF_MEMORY or SYSTEM_SINGULAR, and keeps the former weights. */
+HB_API int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles);
 
 /* vertex_count × handle_count; rows sum to 1. */
 HB_API const double* hb_skinning_weights_values(hb_skinning_weights* weights);
@@ -409,6 +453,21 @@ HB_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, doub
 
 HB_API void hb_skinning_weights_free(hb_skinning_weights* weights);
 
+/* How well weights do what is asked of them, each the worst number over the mesh: see core/skinning/measure_weights.hpp. */
+typedef struct hb_weight_measures {
+  double gradient_jump; /* from one simplex to the next, over the weight's largest gradient */
+  double far_weight;    /* where another handle is less than half as far inside the shape */
+  double leaked_weight; /* of the handle that is nearest in a straight line, but around a bend and not nearest inside; NaN: no such place */
+  double sum_error;     /* |Σⱼ wⱼ − 1| */
+  double least;
+  double largest;
+} hb_weight_measures;
+
+/* Measures any `weights` (vertex_count × handle_count); handles may share vertices here. `support` (handle_count) becomes the part of the area or
+ * volume where each weight counts. Fails with MESH_*, INVALID_SHAPE, HANDLES_MISSING, HANDLE_OUT_OF_RANGE, VALUE_NOT_FINITE (culprit: the
+ * vertex) or OUT_OF_MEMORY. */
+HB_API int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support, hb_weight_measures* measures);
+
 /* ---- skinning: a shape under a few moving handles ----------------------------------------------------------------------- */
 
 /* Rest positions (count × dimension, 2 or 3), and for each of `handle_count` handles an affine transform. */
@@ -428,10 +487,10 @@ HB_API double* hb_skin_transforms(hb_skin* skin);
 /* Deformed positions (count × dimension). Allocates nothing. Fails with TARGET_NOT_FINITE (culprit: the handle) and writes nothing. */
 HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
 
-/* Minimizes an energy of the triangles instead (2 dimensions only) while the handles hold their vertices, handle owners[k] vertices[k], and the
- * ones around a handle of one vertex. `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails
- * with MESH_*, HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT, INVALID_OPTION, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
-HB_API int32_t hb_minimizer_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count, uint32_t energy, hb_skin** skin);
+/* Minimizes an energy of triangles in the plane instead, while the handles hold their vertices, and the ones around a handle of one vertex.
+ * `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails with MESH_*, INVALID_SHAPE,
+ * HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT, INVALID_OPTION, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
+HB_API int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin);
 
 typedef struct hb_minimizer_report {
   double energy;

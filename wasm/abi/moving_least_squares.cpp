@@ -7,8 +7,9 @@ using namespace handlebody;
 extern "C" {
 
 int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension,
-                                       uint32_t outputs, int32_t degree, uint32_t weight, double power, double epsilon,
-                                       double width, double* used_width, hb_interpolant** out) {
+                                       uint32_t outputs, const hb_moving_least_squares_options* options, double* used_width,
+                                       hb_interpolant** out) {
+  const auto [power, epsilon, width, degree, weight] = *options;
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;
   if (weight >= moving_weight_count)

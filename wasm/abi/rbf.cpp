@@ -123,23 +123,22 @@ int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out) {
 }
 
 int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
-                         const hb_rbf_options* options, uint32_t method, double threshold, uint32_t most, double* scores,
-                         uint32_t* outliers, double* heights, uint32_t* outlier_count, double* smoothing) {
+                         const hb_rbf_options* options, hb_outlier_search* search) {
   const GivenData data{points, values, count, dimension, outputs};
   hb_interpolant* none = nullptr;
   if (const int32_t status = check_given(data, &none)) return status;
-  if (method >= outlier_method_count)
+  if (search->method >= outlier_method_count)
     return fail({HB_ERROR_INVALID_OPTION, {"The method is unknown."}, {"Use 0, 1 or 2."}, HB_CULPRIT_OPTION});
   auto read = read_options(*options, dimension);
   if (!read) return fail(read.error());
-  const OutlierOptions how{static_cast<OutlierMethod>(method), threshold, static_cast<Index>(most)};
+  const OutlierOptions how{static_cast<OutlierMethod>(search->method), search->threshold, static_cast<Index>(search->most)};
   const auto report = find_outliers(data.point_rows(), data.value_rows(), *read, how);
   if (!report) return fail(report.error());
-  std::copy(report->scores.data(), report->scores.data() + report->scores.size(), scores);
-  std::copy(report->outliers.begin(), report->outliers.end(), outliers);
-  std::copy(report->outlier_scores.begin(), report->outlier_scores.end(), heights);
-  *outlier_count = static_cast<uint32_t>(report->outliers.size());
-  *smoothing = report->smoothing;
+  std::copy(report->scores.data(), report->scores.data() + report->scores.size(), search->scores);
+  std::copy(report->outliers.begin(), report->outliers.end(), search->outliers);
+  std::copy(report->outlier_scores.begin(), report->outlier_scores.end(), search->heights);
+  search->outlier_count = static_cast<uint32_t>(report->outliers.size());
+  search->smoothing = report->smoothing;
   return HB_OK;
 }
 }

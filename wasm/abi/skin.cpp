@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "abi/support.hpp"
+#include "abi/simplex_mesh.hpp"
 #include "core/skinning/as_rigid_as_possible.hpp"
 #include "core/skinning/dual_quaternion.hpp"
 #include "core/skinning/linear_blend.hpp"
@@ -53,15 +53,16 @@ int32_t hb_skin_deform(hb_skin* skin, float* positions) {
   return done ? HB_OK : fail(done.error());
 }
 
-int32_t hb_minimizer_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
-                            const uint32_t* vertices, const uint32_t* owners, uint32_t count, uint32_t handle_count,
-                            uint32_t energy, hb_skin** skin) {
+int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin) {
   if (energy > 3) return fail({HB_ERROR_INVALID_OPTION, {"There is no energy ", energy, "."}, {"Use 0 to 3."}, HB_CULPRIT_OPTION});
-  SimplexMesh mesh{Eigen::Map<const Matrix>(positions, static_cast<Index>(vertex_count), 2),
-                   Eigen::Map<const Simplices>(triangles, static_cast<Index>(triangle_count), 3)};
-  HeldVertices held{{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
-  auto made = energy == 3 ? as_rigid_as_possible(std::move(mesh), std::move(held))
-                          : quadratic_deformation(std::move(mesh), std::move(held), static_cast<QuadraticEnergy>(energy));
+  if (mesh->dimension != 2)
+    return fail({HB_ERROR_INVALID_SHAPE,
+                 {"Energies are minimized in the plane; the mesh has ", mesh->dimension, " dimensions."},
+                 {"Give two coordinates a vertex."}});
+  auto read = read_mesh(*mesh);
+  if (!read) return fail(read.error());
+  auto made = energy == 3 ? as_rigid_as_possible(std::move(*read), read_held(*handles))
+                          : quadratic_deformation(std::move(*read), read_held(*handles), static_cast<QuadraticEnergy>(energy));
   if (!made) return fail(made.error());
   HeldDeformation* const minimizer = made->get();
   *skin = new hb_skin{std::move(*made), minimizer};

@@ -1,11 +1,12 @@
 // The skinning-weights section of handlebody.h.
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "abi/support.hpp"
+#include "abi/simplex_mesh.hpp"
 #include "core/skinning/bounded_weights.hpp"
+#include "core/skinning/measure_weights.hpp"
 #include "core/skinning/polyharmonic_weights.hpp"
 
 using namespace handlebody;
@@ -20,34 +21,23 @@ static_assert(sizeof(Island) == sizeof(hb_island));
 
 extern "C" {
 
-int32_t hb_skinning_weights_create(const double* positions, uint32_t vertex_count, uint32_t dimension, const uint32_t* simplices,
-                                   uint32_t simplex_count, uint32_t corners, uint32_t order, uint32_t mass,
-                                   hb_skinning_weights** out) {
-  const bool shaped = (dimension == 2 && corners == 3) || (dimension == 3 && (corners == 3 || corners == 4));
-  if (!shaped) {
-    return fail({HB_ERROR_INVALID_SHAPE,
-                 {"Simplices of ", corners, " corners in ", dimension, " dimensions are none that weights know."},
-                 {"Give triangles in 2 or 3 dimensions, or tetrahedra in 3."}});
-  }
+int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** out) {
   if (order < 1 || order > 3 || mass >= mass_count) {
     return fail({HB_ERROR_INVALID_OPTION,
                  {"The order ", order, " or the mass ", mass, " is unknown."},
                  {"Use those that the header lists."},
                  HB_CULPRIT_OPTION});
   }
-  SimplexMesh mesh;
-  mesh.positions = Eigen::Map<const Matrix>(positions, static_cast<Index>(vertex_count), static_cast<Index>(dimension));
-  mesh.simplices = Eigen::Map<const Simplices>(simplices, static_cast<Index>(simplex_count), static_cast<Index>(corners));
-  auto made = PolyharmonicWeights::create(std::move(mesh), static_cast<int>(order), static_cast<Mass>(mass));
+  auto read = read_mesh(*mesh);
+  if (!read) return fail(read.error());
+  auto made = PolyharmonicWeights::create(std::move(*read), static_cast<int>(order), static_cast<Mass>(mass));
   if (!made) return fail(made.error());
   *out = new hb_skinning_weights{std::move(*made), nullptr, {}};
   return HB_OK;
 }
 
-int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const uint32_t* vertices, const uint32_t* owners,
-                                        uint32_t count, uint32_t handle_count) {
-  HeldVertices held{{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
-  const auto done = weights->weights->set_handles(std::move(held));
+int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles) {
+  const auto done = weights->weights->set_handles(read_held(*handles));
   if (!done) return fail(done.error());
   weights->bounding.reset();
   weights->bounded.resize(0, 0);
@@ -73,8 +63,9 @@ const double* hb_skinning_weights_mass(hb_skinning_weights* weights) {
 
 uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* out) {
   const SparseMatrix& energy = weights->weights->energy();
-  *out = {energy.starts.data(), energy.columns.data(), energy.values.data()};
-  return static_cast<uint32_t>(energy.columns.size());
+  *out = {reinterpret_cast<const uint32_t*>(energy.outerIndexPtr()), reinterpret_cast<const uint32_t*>(energy.innerIndexPtr()),
+          energy.valuePtr()};
+  return static_cast<uint32_t>(energy.nonZeros());
 }
 
 int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance) {
@@ -108,5 +99,17 @@ int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* pro
 
 void hb_skinning_weights_free(hb_skinning_weights* weights) {
   delete weights;
+}
+
+int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support,
+                           hb_weight_measures* measures) {
+  auto read = read_mesh(*mesh);
+  if (!read) return fail(read.error());
+  const Eigen::Map<const Matrix> given(weights, static_cast<Index>(mesh->vertex_count), static_cast<Index>(handles->handle_count));
+  const auto made = measure_weights(*read, read_held(*handles), given);
+  if (!made) return fail(made.error());
+  std::copy(made->support.data(), made->support.data() + made->support.size(), support);
+  *measures = {made->gradient_jump, made->far_weight, made->leaked_weight, made->sum_error, made->least, made->largest};
+  return HB_OK;
 }
 }

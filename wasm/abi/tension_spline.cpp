@@ -6,8 +6,8 @@
 using namespace handlebody;
 
 extern "C" int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension,
-                                            uint32_t outputs, double alpha, double beta, double gamma, double smoothing,
-                                            uint32_t ends, hb_interpolant** out) {
+                                            uint32_t outputs, const hb_tension_spline_options* options, hb_interpolant** out) {
+  const auto [alpha, beta, gamma, smoothing, ends] = *options;
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;
   if (ends == 0) return deliver(tension_spline(data.point_rows(), data.value_rows(), {alpha, beta, gamma, smoothing}), out);

@@ -18,7 +18,14 @@ export {
   type GridMatrix,
 } from './discrete-green.ts';
 export { DualQuaternion } from './dual-quaternion.ts';
-export { type Culprit, type CulpritKind, type ErrorCode, HandlebodyError } from './errors.ts';
+export {
+  type Culprit,
+  type CulpritKind,
+  type ErrorCode,
+  type ErrorCodes,
+  HandlebodyError,
+  type SolverErrorCode,
+} from './errors.ts';
 export { hashPositions } from './hash.ts';
 export { Interpolant, type ScatteredData } from './interpolant.ts';
 export { Irbf, SOLVE_DEFAULTS } from './irbf.ts';
@@ -43,14 +50,22 @@ export {
 export { NATURAL_NEIGHBOR_DEFAULTS, NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
 export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type OutlierReport } from './outliers.ts';
 export type { OutsideHull } from './outside-hull.ts';
-export { POSE_SPACE_DEFAULTS, type PoseExample, PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+export {
+  POSE_SPACE_DEFAULTS,
+  type PoseExample,
+  PoseSpace,
+  type PoseSpaceKernel,
+  type PoseSpaceMethod,
+  type PoseSpaceOptions,
+} from './pose-space.ts';
 export { Rbf } from './rbf.ts';
 export { RBF_DEFAULTS, type RbfOptions } from './rbf-options.ts';
 export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export type { SimplexMesh } from './simplex-mesh.ts';
-export { SKIN_DEFAULTS, Skin, type SkinOptions } from './skin.ts';
+export { BlendedSkin, SKIN_DEFAULTS, Skin, type SkinOptions } from './skin.ts';
+export type { SteppedOptions } from './stepped.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export { TETRAHEDRALIZE_DEFAULTS, Tetrahedra, type TetrahedralizeOptions } from './tetrahedralize.ts';
 export type * from './types.ts';

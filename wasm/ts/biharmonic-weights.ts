@@ -1,9 +1,9 @@
 import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import type { Heap } from './heap.ts';
-import { type CheckedMesh, checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
+import { type CheckedMesh, checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { runStepped, type SteppedOptions } from './stepped.ts';
-import { resolveHandles, type WeightHandle } from './weight-handles.ts';
+import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
 export interface BiharmonicWeightsOptions {
   /**
@@ -93,19 +93,14 @@ export class BiharmonicWeights {
       });
     }
     const checked = checkSimplexMesh(mesh);
-    const { positions, dimension, vertexCount, simplices, corners, simplexCount } = checked;
-    this.vertexCount = vertexCount;
+    this.vertexCount = checked.vertexCount;
     this.#heap = heap;
     this.#mesh = checked;
     this.#bounded = bounded;
     this.#object = heap.scope((scratch) => {
-      const from = scratch.putF64(positions);
-      const indices = scratch.putU32(simplices);
+      const shape = putMesh(heap, scratch, checked);
       const out = scratch.reserve(4);
-      const kind = mass === 'voronoi' ? 0 : 1;
-      heap.check((e) =>
-        e.hb_skinning_weights_create(from, vertexCount, dimension, indices, simplexCount, corners, order, kind, out),
-      );
+      heap.check((e) => e.hb_skinning_weights_create(shape, order, mass === 'voronoi' ? 0 : 1, out));
       return heap.u32(out, 1)[0] ?? 0;
     });
     try {
@@ -175,11 +170,9 @@ export class BiharmonicWeights {
   setHandles(handles: readonly WeightHandle[]): void {
     const object = this.#handle;
     const resolved = resolveHandles(this.#mesh, handles);
-    const owners = resolved.flatMap((vertices, owner) => vertices.map(() => owner));
     this.#heap.scope((scratch) => {
-      const at = scratch.putU32(resolved.flat());
-      const of = scratch.putU32(owners);
-      this.#heap.check((e) => e.hb_skinning_weights_set_handles(object, at, of, owners.length, handles.length));
+      const held = putHeld(this.#heap, scratch, resolved);
+      this.#heap.check((e) => e.hb_skinning_weights_set_handles(object, held));
     });
     this.#vertices = resolved;
     this.#pending = undefined;

@@ -1,6 +1,29 @@
-import type { CulpritKind, ErrorCode } from './abi.generated.ts';
+import type { CulpritKind, SolverErrorCode } from './abi.generated.ts';
 
-export type { CulpritKind, ErrorCode } from './abi.generated.ts';
+export type { CulpritKind, SolverErrorCode } from './abi.generated.ts';
+
+/**
+ * Everything that can go wrong, by name: what the solver returns (wasm/core/errors/status.h), and here what its loader and its classes
+ * throw. Readers of files, makers of shapes and the command add their own names beside their code, by `declare module`: so
+ * `new HandlebodyError('file-nto-glb', …)` does not compile.
+ */
+export interface ErrorCodes extends Record<SolverErrorCode, true> {
+  /** The object was used after dispose(). */
+  disposed: true;
+  /** The caller's AbortSignal fired. */
+  aborted: true;
+  /** WebAssembly is missing, blocked or could not be compiled. */
+  'wasm-unavailable': true;
+  /** The instance trapped before; load() a new one. */
+  'wasm-trapped': true;
+  /** A body that was baked for another mesh. */
+  'body-mismatch': true;
+  /** An example's shape has another length than the others'. */
+  'example-shape-mismatch': true;
+}
+
+/** Stable names of everything that can go wrong in the entries of the library that a program imports. */
+export type ErrorCode = keyof ErrorCodes;
 
 /** Which part of the input is at fault: the vertex, handle, example … with this number. */
 export interface Culprit {

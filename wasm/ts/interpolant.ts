@@ -39,6 +39,7 @@ export abstract class Interpolant {
   /** Points left out because an earlier one has the same place and values. */
   readonly merged: readonly { readonly point: number; readonly into: number }[];
 
+  /** @internal */
   protected readonly heap: Heap;
   #handle: number;
   #scratch = 0;

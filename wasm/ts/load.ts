@@ -25,7 +25,7 @@ import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './t
 import type { BakeOptions, BakeShape, BodyData, IrbfOptions, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
-const ABI_VERSION = 2;
+const ABI_VERSION = 3;
 
 export interface LoadOptions {
   /** The wasm to use instead of the one inside: compiled, as bytes, or where to fetch it. */
@@ -121,7 +121,7 @@ export class Handlebody {
 
   /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
   measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
-    return measureWeights(mesh, handles, weights);
+    return measureWeights(this.#heap, mesh, handles, weights);
   }
 
   /** Linear blend skinning in the plane or in space. */

@@ -1,9 +1,9 @@
 import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
-import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
+import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { Skin } from './skin.ts';
-import { resolveHandles, type WeightHandle } from './weight-handles.ts';
+import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
 /**
  * Of the map f = v + u of the shape:
@@ -66,15 +66,12 @@ export class EnergyMinimizer extends Skin {
         remedy: 'Give two coordinates a vertex, and dimension: 2.',
       });
     }
-    const { positions, simplices, vertexCount, simplexCount } = checked;
     const vertices = resolveHandles(checked, handles);
-    const owners = vertices.flatMap((list, owner) => list.map(() => owner));
     super(
       heap,
-      { dimension: 2, vertexCount, handleCount: handles.length },
-      (e, out, [at = 0, triangles = 0, held = 0, of = 0]) =>
-        e.hb_minimizer_create(at, vertexCount, triangles, simplexCount, held, of, owners.length, handles.length, number, out),
-      (scratch) => [scratch.putF64(positions), scratch.putU32(simplices), scratch.putU32(vertices.flat()), scratch.putU32(owners)],
+      { dimension: 2, vertexCount: checked.vertexCount, handleCount: handles.length },
+      (e, out, [shape = 0, held = 0]) => e.hb_minimizer_create(shape, held, number, out),
+      (scratch) => [putMesh(heap, scratch, checked), putHeld(heap, scratch, vertices)],
     );
     this.energy = energy;
     this.vertices = vertices;

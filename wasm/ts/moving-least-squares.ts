@@ -1,3 +1,4 @@
+import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant, type ScatteredData } from './interpolant.ts';
@@ -55,30 +56,28 @@ export class MovingLeastSquares extends Interpolant {
     // The solver reads 0 as "automatic", which nobody who writes 0 means.
     if (width !== 'auto' && !(typeof width === 'number' && width > 0))
       throw wrong(`The width ${width} is not a positive number.`, "a number in units of the points, or 'auto'");
+    const layout = LAYOUT.hb_moving_least_squares_options;
     let used = 0;
     super(
       heap,
       options,
-      (e, { points, values, count, dimension, outputs, out }, at) => {
-        const [method, h] = [WEIGHTS[weight], width === 'auto' ? 0 : width];
-        const status = e.hb_moving_least_squares_create(
-          points,
-          values,
-          count,
-          dimension,
-          outputs,
-          degree,
-          method,
-          power,
-          epsilon,
-          h,
-          at,
-          out,
-        );
-        used = heap.f64(at, 1)[0] ?? 0;
+      (e, { points, values, count, dimension, outputs, out }, how) => {
+        const usedAt = how + layout.sizeof;
+        const status = e.hb_moving_least_squares_create(points, values, count, dimension, outputs, how, usedAt, out);
+        used = heap.f64(usedAt, 1)[0] ?? 0;
         return status;
       },
-      (scratch) => scratch.reserve(8),
+      (scratch) => {
+        const at = scratch.reserve(layout.sizeof + 8); // and room for the width that was used
+        const doubles = heap.f64(at, layout.degree / 8);
+        doubles[layout.power / 8] = power;
+        doubles[layout.epsilon / 8] = epsilon;
+        doubles[layout.width / 8] = width === 'auto' ? 0 : width;
+        const words = heap.u32(at, layout.sizeof / 4);
+        words[layout.degree / 4] = degree;
+        words[layout.weight / 4] = WEIGHTS[weight];
+        return at;
+      },
     );
     this.width = used;
   }

@@ -1,3 +1,4 @@
+import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkShapes } from './interpolant.ts';
@@ -67,34 +68,24 @@ export function findOutliers(heap: Heap, options: OutlierOptions): OutlierReport
       const scores = scratch.reserve(8 * count);
       const outliers = scratch.reserve(4 * most);
       const heights = scratch.reserve(8 * most);
-      const found = scratch.reserve(4);
-      const used = scratch.reserve(8);
-      heap.check((e) =>
-        e.hb_find_outliers(
-          points,
-          values,
-          count,
-          options.dimension,
-          outputs,
-          at,
-          number,
-          threshold,
-          most,
-          scores,
-          outliers,
-          heights,
-          found,
-          used,
-        ),
-      );
-      const length = heap.u32(found, 1)[0] as number;
+      const layout = LAYOUT.hb_outlier_search;
+      const search = scratch.reserve(layout.sizeof);
+      heap.f64(search + layout.threshold, 1)[0] = threshold;
+      const words = heap.u32(search, layout.sizeof / 4);
+      words[layout.method / 4] = number;
+      words[layout.most / 4] = most;
+      words[layout.scores / 4] = scores;
+      words[layout.outliers / 4] = outliers;
+      words[layout.heights / 4] = heights;
+      heap.check((e) => e.hb_find_outliers(points, values, count, options.dimension, outputs, at, search));
+      const length = heap.u32(search + layout.outlier_count, 1)[0] as number;
       return {
         method,
         outliers: [...heap.u32(outliers, length)],
         heights: [...heap.f64(heights, length)],
         threshold,
         scores: heap.f64(scores, count).slice(),
-        smoothing: heap.f64(used, 1)[0] as number,
+        smoothing: heap.f64(search + layout.smoothing, 1)[0] as number,
       };
     });
   } catch (error) {

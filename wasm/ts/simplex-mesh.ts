@@ -1,4 +1,6 @@
+import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import type { Heap, Scratch } from './heap.ts';
 
 /** Triangles in the plane or in space, or tetrahedra: one of `triangles` (m×3) and `tetrahedra` (m×4), indices into `positions`. */
 export interface SimplexMesh {
@@ -57,4 +59,20 @@ export function checkSimplexMesh(mesh: SimplexMesh): CheckedMesh {
     corners,
     simplexCount: simplices.length / corners,
   };
+}
+
+/** @internal Puts the mesh into scratch memory, as the solver takes it, and returns its address. */
+export function putMesh(heap: Heap, scratch: Scratch, mesh: CheckedMesh): number {
+  const layout = LAYOUT.hb_simplex_mesh;
+  const positions = scratch.putF64(mesh.positions);
+  const simplices = scratch.putU32(mesh.simplices);
+  const at = scratch.reserve(layout.sizeof);
+  const words = heap.u32(at, layout.sizeof / 4);
+  words[layout.positions / 4] = positions;
+  words[layout.simplices / 4] = simplices;
+  words[layout.vertex_count / 4] = mesh.vertexCount;
+  words[layout.dimension / 4] = mesh.dimension;
+  words[layout.simplex_count / 4] = mesh.simplexCount;
+  words[layout.corners / 4] = mesh.corners;
+  return at;
 }

@@ -28,6 +28,7 @@ export abstract class Skin {
    */
   readonly transforms: Float64Array;
 
+  /** @internal */
   protected readonly heap: Heap;
   readonly #out: number;
   #handle: number;

@@ -1,3 +1,4 @@
+import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkShapes, Interpolant, type ScatteredData } from './interpolant.ts';
@@ -56,8 +57,22 @@ export class TensionSpline extends Interpolant {
     const degree = gamma > 0 ? -1 : beta > 0 ? 0 : 1;
     const { count } = checkShapes(options);
     if (kind === 0) heap.check((e) => e.hb_rbf_check_size(count, options.dimension, 0, degree));
-    super(heap, options, (e, { points, values, dimension, outputs, out }) =>
-      e.hb_tension_spline_create(points, values, count, dimension, outputs, alpha, beta, gamma, smoothing, kind, out),
+    super(
+      heap,
+      options,
+      (e, { points, values, dimension, outputs, out }, how) =>
+        e.hb_tension_spline_create(points, values, count, dimension, outputs, how, out),
+      (scratch) => {
+        const layout = LAYOUT.hb_tension_spline_options;
+        const at = scratch.reserve(layout.sizeof);
+        const doubles = heap.f64(at, layout.sizeof / 8);
+        doubles[layout.alpha / 8] = alpha;
+        doubles[layout.beta / 8] = beta;
+        doubles[layout.gamma / 8] = gamma;
+        doubles[layout.smoothing / 8] = smoothing;
+        heap.u32(at, layout.sizeof / 4)[layout.ends / 4] = kind;
+        return at;
+      },
     );
     this.#options = options;
     this.#degree = degree;

@@ -1,4 +1,6 @@
+import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import type { Heap, Scratch } from './heap.ts';
 import type { CheckedMesh } from './simplex-mesh.ts';
 
 /**
@@ -32,6 +34,20 @@ export function resolveHandles(mesh: CheckedMesh, handles: readonly WeightHandle
     }
     return vertices;
   });
+}
+
+/** @internal Puts the vertices of every handle into scratch memory, as the solver takes them, and returns their address. */
+export function putHeld(heap: Heap, scratch: Scratch, held: readonly (readonly number[])[]): number {
+  const layout = LAYOUT.hb_held_vertices;
+  const vertices = scratch.putU32(held.flat());
+  const owners = scratch.putU32(held.flatMap((list, owner) => list.map(() => owner)));
+  const at = scratch.reserve(layout.sizeof);
+  const words = heap.u32(at, layout.sizeof / 4);
+  words[layout.vertices / 4] = vertices;
+  words[layout.owners / 4] = owners;
+  words[layout.count / 4] = held.reduce((sum, list) => sum + list.length, 0);
+  words[layout.handle_count / 4] = held.length;
+  return at;
 }
 
 function boneVertices(

@@ -10,7 +10,7 @@ import {
 } from '@gltf-transform/core';
 import { BODY_ACCESSORS, HANDLEBODY_BODY } from './schema.ts';
 
-interface IBodyProperty {
+export interface IBodyProperty {
   name: string;
   extras: Record<string, unknown>;
   header: Record<string, unknown>;

@@ -1,19 +1,21 @@
 /** GLB files to typed arrays and back, by glTF-Transform, and OBJ and PLY to typed arrays: "handlebody/gltf-transform". Knows no three.js. */
-export { type BodyAccessorName, BodyExtension, BodyProperty } from './body-extension.ts';
+export { type BodyAccessorName, BodyExtension, BodyProperty, type IBodyProperty } from './body-extension.ts';
 export { checkGlb, type GlbParts } from './check-glb.ts';
 export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './check-gltf.ts';
 export type { MeshRange } from './concatenate.ts';
+export type { FileErrorCode, FileErrorCodes } from './error-codes.ts';
 export type { FileMesh } from './file-mesh.ts';
 export { readGlb, writeGlb } from './glb.ts';
 export type { GltfJson } from './gltf-json.ts';
 export { createIo, HANDLEBODY_EXTENSIONS, type IoOptions } from './io.ts';
 export { MeshQuantization } from './mesh-quantization.ts';
-export { PoseSpaceExtension, PoseSpaceProperty } from './pose-space-extension.ts';
-export { POSE_SPACE_VERSION, type PoseSpaceData, type PoseSpaceInput } from './pose-space-schema.ts';
+export { type IPoseSpaceProperty, PoseSpaceExtension, PoseSpaceProperty } from './pose-space-extension.ts';
+export { POSE_SPACE_VERSION, type PoseSpaceData, type PoseSpaceInput, type StoredPoseSpace } from './pose-space-schema.ts';
 export { attachPoseSpace, readPoseSpaces } from './pose-spaces.ts';
 export { readBody } from './read-body.ts';
 export { type PrimitiveRange, readMesh } from './read-mesh.ts';
 export { readObj } from './read-obj.ts';
 export { readPly } from './read-ply.ts';
 export { BODY_VERSION, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE } from './schema.ts';
+export type { Matrix } from './transform.ts';
 export { attachBody, detachBody } from './write-body.ts';

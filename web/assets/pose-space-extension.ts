@@ -9,7 +9,7 @@ import {
 } from '@gltf-transform/core';
 import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 
-interface IPoseSpaceProperty {
+export interface IPoseSpaceProperty {
   name: string;
   extras: Record<string, unknown>;
   definition: Record<string, unknown>;

@@ -18,7 +18,8 @@ import { asObject, isNumber, show } from './gltf-json.ts';
 /** The format that is written and read. */
 export const POSE_SPACE_VERSION = 1;
 
-interface PoseSpace<Example> {
+/** A pose space as files have it. */
+export interface StoredPoseSpace<Example> {
   readonly version: typeof POSE_SPACE_VERSION;
   readonly dimensions: readonly { readonly name: string; readonly min: number; readonly max: number }[];
   readonly examples: readonly (Example & {
@@ -29,10 +30,10 @@ interface PoseSpace<Example> {
 }
 
 /** Examples of a pose space over a mesh's morph targets; `weights`: one a morph target. `target`: the one that the example is. */
-export type PoseSpaceData = PoseSpace<{ readonly weights: readonly number[]; readonly target?: number }>;
+export type PoseSpaceData = StoredPoseSpace<{ readonly weights: readonly number[]; readonly target?: number }>;
 
 /** A pose space to be stored: for each example, weights or a target, which counts when there are both. */
-export type PoseSpaceInput = PoseSpace<{ readonly weights?: readonly number[]; readonly target?: number }>;
+export type PoseSpaceInput = StoredPoseSpace<{ readonly weights?: readonly number[]; readonly target?: number }>;
 
 /**
  * Checks a pose space from the extension's JSON. `targetCount` is how many morph targets the mesh has.

@@ -12,11 +12,11 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
 import { PageError } from '../ui/page-error.ts';
 import { disposeObject } from './dispose-object.ts';
 import { fitCamera } from './fit-camera.ts';
 import { StudioLight } from './light.ts';
-import { ease, onMotionChange, reducedMotion } from './motion.ts';
 import { settleDepth } from './settle-depth.ts';
 
 /** Work to do before a frame is drawn: gets the seconds since the last one and says whether there is more to do in the next. */

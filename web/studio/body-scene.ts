@@ -1,10 +1,10 @@
 import { type Object3D, Vector3 } from 'three';
 import type { Handle } from '../../wasm/ts/index.ts';
-import { ease, reducedMotion } from '../stage/motion.ts';
 import type { Step, View } from '../stage/view.ts';
 import type { DeformedGeometry } from '../three/geometry.ts';
 import { HandleOverlay } from '../three/handles.ts';
 import { h } from '../ui/dom.ts';
+import { ease, reducedMotion } from '../ui/motion.ts';
 import { BodyPanel, type Steerable } from './body-panel.ts';
 import type { HandleOrder } from './handles-json.ts';
 import type { LiveBody, Point, Round } from './live-body.ts';

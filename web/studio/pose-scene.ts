@@ -1,7 +1,7 @@
 import type { Mesh, Object3D } from 'three';
 import type { Handlebody, PoseSpace } from '../../wasm/ts/index.ts';
-import { reducedMotion } from '../stage/motion.ts';
 import type { View } from '../stage/view.ts';
+import { reducedMotion } from '../ui/motion.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
 import { PosePanel } from './pose-panel.ts';
 import type { PoseSpaceSource } from './pose-source.ts';

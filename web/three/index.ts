@@ -1,5 +1,7 @@
 /** Handlebody in three.js: "handlebody/three". three.js itself is a peer dependency; glTF-Transform is not needed. */
-export type { PoseSpaceData } from '../assets/pose-space-schema.ts';
+export type { FileErrorCode, FileErrorCodes } from '../assets/error-codes.ts';
+export type { PoseSpaceData, StoredPoseSpace } from '../assets/pose-space-schema.ts';
+export type { Matrix } from '../assets/transform.ts';
 export { DeformedGeometry, meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
 export { HandleOverlay, type HandleOverlayOptions, type HandlePoint } from './handles.ts';
 export {

@@ -1,4 +1,6 @@
 // Fast marching: the viscosity solution of the eikonal equation |∇d| = 1 on a voxel domain (Sethian 1996), second order.
+//
+// Rejected: a multistencil fast marching, whose mean error is three times as large in a box and an L, and no smaller round a ring.
 #pragma once
 
 #include <array>

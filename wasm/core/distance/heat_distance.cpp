@@ -71,37 +71,33 @@ Result<double> HeatDistance::step() {
 void HeatDistance::assemble() {
   neighbors_ = domain_->face_neighbors();
   components_ = face_components(*domain_);
-  const auto count = static_cast<std::uint32_t>(domain_->size());
+  const Index count = domain_->size();
+  SparseMatrix laplacian(count, count);
+  laplacian.reserve(count + std::ssize(neighbors_));
+  Vector heat_diagonal(count), poisson_diagonal(count);
   // Neighbors in ascending order of their numbers, the voxel itself in the middle.
-  constexpr int ascending[6] = {4, 2, 0, 1, 3, 5};
+  constexpr int ascending[7] = {4, 2, 0, -1, 1, 3, 5};
   std::int32_t parts = 0;
-  for (std::uint32_t v = 0; v < count; ++v) {
+  for (Index v = 0; v < count; ++v) {
     double inside = 0;
-    const auto put_neighbors = [&](int from, int to) {
-      for (int k = from; k < to; ++k) {
-        const std::int32_t u = neighbors_[6 * std::size_t(v) + ascending[k]];
-        if (static_cast<std::uint32_t>(u) == count) continue;
-        ++inside;
-        heat_matrix_.columns.push_back(static_cast<std::uint32_t>(u));
-        heat_matrix_.values.push_back(-heat_time);
-        poisson_matrix_.values.push_back(-1);
-      }
-    };
-    put_neighbors(0, 3);
-    const std::size_t diagonal = heat_matrix_.columns.size();
-    heat_matrix_.columns.push_back(v);
-    heat_matrix_.values.push_back(0);
-    poisson_matrix_.values.push_back(0);
-    put_neighbors(3, 6);
+    laplacian.startVec(v);
+    for (const int side : ascending) {
+      const Index u = side < 0 ? v : neighbors_[6 * v + side];
+      if (u == count) continue;
+      laplacian.insertBack(v, u) = -1;
+      if (u != v) ++inside;
+    }
     // Half a spacing from the voxel to the surface makes its conductance 2.
-    heat_matrix_.values[diagonal] = 1 + heat_time * (inside + 2 * (6 - inside));
+    heat_diagonal[v] = 1 + heat_time * (inside + 2 * (6 - inside));
     const bool held = components_[v] == parts;  // the first voxel of its part
     if (held) ++parts;
-    poisson_matrix_.values[diagonal] = inside + (held ? 1 : 0);
-    heat_matrix_.starts.push_back(static_cast<std::uint32_t>(heat_matrix_.columns.size()));
+    poisson_diagonal[v] = inside + (held ? 1 : 0);
   }
-  poisson_matrix_.starts = heat_matrix_.starts;
-  poisson_matrix_.columns = heat_matrix_.columns;
+  laplacian.finalize();
+  heat_matrix_ = heat_time * laplacian;
+  heat_matrix_.diagonal() = heat_diagonal;
+  poisson_matrix_ = std::move(laplacian);
+  poisson_matrix_.diagonal() = poisson_diagonal;
 }
 
 Result<Done> HeatDistance::order_rows() {

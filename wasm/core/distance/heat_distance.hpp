@@ -10,8 +10,8 @@
 
 #include "core/distance/voxel_domain.hpp"
 #include "core/errors/result.hpp"
+#include "core/numerics/sparse.hpp"
 #include "core/numerics/sparse_cholesky.hpp"
-#include "core/numerics/sparse_matrix.hpp"
 #include "core/numerics/types.hpp"
 
 namespace handlebody {

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/enclosed_volume.hpp"
 #include "core/mesh/weld.hpp"
+#include "core/numerics/decompositions.hpp"
 #include "core/numerics/indices.hpp"
-#include "core/numerics/symmetric_eigen.hpp"
 
 namespace handlebody {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double most_bytes = 1.5 * 1024 * 1024 * 1024;
 constexpr double least_eigenvalue = 1e-4;  // of the largest: smaller ones are the distances' errors
 constexpr Index voxels_per_step = 256;
+constexpr Index vertices_at_once = 256;  // turned into doubles for a product
 
 /** Every edge is passed as often one way as the other. */
 Result<Done> check_closed(const Triangles& triangles, const Indices& original) {
@@ -40,16 +42,6 @@ Result<Done> check_closed(const Triangles& triangles, const Indices& original) {
                  {"Close the mesh and orient it, or use another distance."}, HB_CULPRIT_TRIANGLE, original[edges[first] / 3]);
   }
   return Done{};
-}
-
-/** Six times the volume enclosed. */
-double volume(const Points& positions, const Triangles& triangles) {
-  double sum = 0;
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)), c = positions.row(triangles(t, 2));
-    sum += a.dot(b.cross(c));
-  }
-  return sum;
 }
 
 }  // namespace
@@ -94,7 +86,7 @@ Result<MeanValueDistance> MeanValueDistance::begin(const ConstPoints& positions,
                  {"Mean value distances need a closed surface; use another distance."});
   }
   if (auto closed = check_closed(made.triangles_, original); !closed) return closed.error();
-  if (volume(made.positions_, made.triangles_) < 0) made.triangles_.col(1).swap(made.triangles_.col(2));
+  if (enclosed_volume(made.positions_, made.triangles_) < 0) made.triangles_.col(1).swap(made.triangles_.col(2));
 
   // The first landmark is the vertex farthest from the middle of them all; its distances tell what is connected.
   made.geodesics_.emplace(made.positions_, made.triangles_);
@@ -165,46 +157,36 @@ void MeanValueDistance::add_landmark() {
  *  coordinate k is ½ uₖ·(μ − δ)/√|λₖ|, with the sign of λₖ, μ being the mean of D²'s columns. */
 void MeanValueDistance::embed() {
   const Index count = squared_.cols();
-  MatrixXd b(count, count), vectors;
-  Vector mean = Vector::Zero(count);
-  for (Index i = 0; i < count; ++i) {
-    for (Index j = 0; j < count; ++j) {
-      b(i, j) = 0.5 * (double{squared_(landmarks_[i], j)} + double{squared_(landmarks_[j], i)});
-      mean[j] += b(i, j) / static_cast<double>(count);
-    }
-  }
-  double all = 0;
-  for (Index i = 0; i < count; ++i) all += mean[i] / static_cast<double>(count);
-  for (Index i = 0; i < count; ++i) {
-    for (Index j = 0; j < count; ++j) b(i, j) = -0.5 * (b(i, j) - mean[i] - mean[j] + all);
-  }
-  symmetric_eigen(b, vectors);
-  const Indices order = sorted_indices(count, [&](std::uint32_t i, std::uint32_t j) {
-    return std::abs(b(i, i)) > std::abs(b(j, j)) || (std::abs(b(i, i)) == std::abs(b(j, j)) && i < j);
+  MatrixXd b(count, count);
+  for (Index i = 0; i < count; ++i) b.row(i) = squared_.row(landmarks_[i]).cast<double>();
+  b = 0.5 * (b + b.transpose()).eval();
+  const Vector mean = b.rowwise().mean();
+  b.colwise() -= mean;
+  b.rowwise() -= mean.transpose();
+  b.array() += mean.mean();
+  b *= -0.5;
+  const auto [values, vectors] = symmetric_eigen(b);
+  const Indices order = sorted_indices(count, [&values = values](std::uint32_t i, std::uint32_t j) {
+    return std::abs(values[i]) > std::abs(values[j]) || (std::abs(values[i]) == std::abs(values[j]) && i < j);
   });
   Index m = 0;
-  while (m < std::min(count, most_coordinates) &&
-         std::abs(b(order[m], order[m])) > least_eigenvalue * std::abs(b(order[0], order[0])))
-    ++m;
+  while (m < std::min(count, most_coordinates) && std::abs(values[order[m]]) > least_eigenvalue * std::abs(values[order[0]])) ++m;
 
-  MatrixF values(squared_.rows(), m);
-  std::vector<float> axes(m * count);
+  MatrixXd axes(count, m);
   for (Index k = 0; k < m; ++k) {
-    const double eigenvalue = b(order[k], order[k]), scale = 0.5 / std::sqrt(std::abs(eigenvalue)) * (eigenvalue > 0 ? 1 : -1);
+    const double eigenvalue = values[order[k]];
     signs_.push_back(eigenvalue > 0 ? 1.0F : -1.0F);
-    for (Index i = 0; i < count; ++i) axes[k * count + i] = static_cast<float>(scale * vectors(i, order[k]));
+    axes.col(k) = 0.5 / std::sqrt(std::abs(eigenvalue)) * signs_.back() * vectors.col(order[k]);
   }
-  std::vector<float> away(count);
-  for (Index v = 0; v < values.rows(); ++v) {
-    for (Index i = 0; i < count; ++i) away[i] = static_cast<float>(mean[i] - squared_(v, i));
-    for (Index k = 0; k < m; ++k) {
-      double sum = 0;
-      for (Index i = 0; i < count; ++i) sum += axes[k * count + i] * away[i];
-      values(v, k) = static_cast<float>(sum);
-    }
+  MatrixF coordinates(squared_.rows(), m);
+  MatrixXd away(std::min(vertices_at_once, squared_.rows()), count);  // μ − δ of some vertices
+  for (Index first = 0; first < squared_.rows(); first += away.rows()) {
+    const Index some = std::min(away.rows(), squared_.rows() - first);
+    away.topRows(some) = (-squared_.middleRows(first, some).cast<double>()).rowwise() + mean.transpose();
+    coordinates.middleRows(first, some) = (away.topRows(some) * axes).cast<float>();
   }
   squared_.resize(0, 0);
-  field_ = std::make_unique<MeanValueField>(positions_, triangles_, values);
+  field_ = std::make_unique<MeanValueField>(positions_, triangles_, coordinates);
   coordinates_.resize(domain_->size(), m);
   at_source_.resize(m);
   phase_ = Phase::voxels;

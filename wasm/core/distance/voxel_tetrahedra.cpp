@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/distance/voxel_domain.hpp"
+#include "core/mesh/kuhn_tetrahedra.hpp"
 
 namespace handlebody {
 
@@ -14,10 +15,6 @@ namespace {
 
 constexpr double near = 1e-9;  // of a voxel
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/** The ways from corner 0 of a cube to corner 7 along three edges, one a tetrahedron; corner i + 2j + 4k is (i, j, k). The axes'
- * order, and with it the handedness, decides which way the second and third corner go. */
-constexpr std::array<std::array<int, 3>, 6> axis_orders{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
 /** Whether a triangle and a cube about the origin touch: no plane lies between them (Akenine-Möller 2001). */
 bool touches(const std::array<Vector3, 3>& p, double half) {
@@ -145,12 +142,8 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
   for (std::size_t v = 0; v < marked.size(); ++v) {
     if (!marked[v]) continue;
     const std::array<std::int32_t, 3> cell = grid.cell(static_cast<std::int64_t>(v));
-    for (std::size_t t = 0; t < axis_orders.size(); ++t) {
-      const int second = 1 << axis_orders[t][0], third = second | 1 << axis_orders[t][1];
-      std::array<std::uint32_t, 4> own{corner(cell, 0), corner(cell, second), corner(cell, third), corner(cell, 7)};
-      if (t >= 3) std::swap(own[1], own[2]);  // odd orders: so that volumes are positive
-      indices.insert(indices.end(), own.begin(), own.end());
-    }
+    for (const auto& own : kuhn_tetrahedra)
+      for (const int c : own) indices.push_back(corner(cell, c));
   }
 
   VoxelTetrahedra result;

@@ -1,5 +1,7 @@
-/* Every status code of Handlebody, from the solver, the loader and the file readers alike. The TypeScript names are generated from
- * this list: HB_ERROR_MESH_NOT_FINITE becomes 'mesh-not-finite'. Codes are stable: numbers are never reused. */
+/* Every status code that the solver returns. The TypeScript names are generated from this list: HB_ERROR_MESH_NOT_FINITE becomes
+ * 'mesh-not-finite'. Errors that only TypeScript throws have a name and no number: see wasm/ts/errors.ts, and error-codes.ts in
+ * web/assets, web/models and web/cli. Codes are stable, and no number is used again: 5 to 8, 41, 42, 84 and 100 to 144 once stood
+ * for errors of TypeScript. */
 #ifndef HANDLEBODY_STATUS_H
 #define HANDLEBODY_STATUS_H
 
@@ -7,14 +9,10 @@ typedef enum hb_status {
   HB_OK = 0,
 
   /* general */
-  HB_ERROR_INTERNAL = 1,         /* a defect of ours; the message says where */
-  HB_ERROR_OUT_OF_MEMORY = 2,    /* a size was refused before it was allocated, or memory ran out */
-  HB_ERROR_INVALID_OPTION = 3,   /* an option outside its documented range */
-  HB_ERROR_INVALID_SHAPE = 4,    /* an array whose length does not fit the others */
-  HB_ERROR_DISPOSED = 5,         /* the object was used after dispose() */
-  HB_ERROR_ABORTED = 6,          /* the caller's AbortSignal fired */
-  HB_ERROR_WASM_UNAVAILABLE = 7, /* WebAssembly is missing, blocked or could not be compiled */
-  HB_ERROR_WASM_TRAPPED = 8,     /* the instance trapped before; load() a new one */
+  HB_ERROR_INTERNAL = 1,       /* a defect of ours; the message says where */
+  HB_ERROR_OUT_OF_MEMORY = 2,  /* a size was refused before it was allocated, or memory ran out */
+  HB_ERROR_INVALID_OPTION = 3, /* an option outside its documented range */
+  HB_ERROR_INVALID_SHAPE = 4,  /* an array whose length does not fit the others */
 
   /* meshes */
   HB_ERROR_MESH_TOO_FEW_VERTICES = 20,
@@ -30,9 +28,7 @@ typedef enum hb_status {
   HB_ERROR_CLOUD_TOO_SPARSE = 30,   /* a point cloud whose gaps are wider than the grid can close */
 
   /* baked bodies */
-  HB_ERROR_BODY_INVALID = 40,  /* arrays of a baked body contradict each other */
-  HB_ERROR_BODY_MISMATCH = 41, /* baked for another mesh */
-  HB_ERROR_BODY_VERSION = 42,  /* a format version this build does not know */
+  HB_ERROR_BODY_INVALID = 40, /* arrays of a baked body contradict each other */
 
   /* handles */
   HB_ERROR_HANDLE_OUT_OF_RANGE = 60, /* its vertex is not in the mesh */
@@ -48,7 +44,6 @@ typedef enum hb_status {
   HB_ERROR_EXAMPLE_NOT_FINITE = 81,
   HB_ERROR_EXAMPLES_TOO_FEW = 82,
   HB_ERROR_EXAMPLES_DEGENERATE = 83, /* places that do not span the polynomial tail, e.g. on one line */
-  HB_ERROR_EXAMPLE_SHAPE_MISMATCH = 84,
   HB_ERROR_QUERY_NOT_FINITE = 85,
   HB_ERROR_POINT_DUPLICATE = 86, /* two points at one place with different values */
   HB_ERROR_POINT_NOT_FINITE = 87,
@@ -56,30 +51,7 @@ typedef enum hb_status {
   HB_ERROR_POINTS_TOO_FEW = 89,
   HB_ERROR_POINTS_DEGENERATE = 90, /* points that do not span what the method needs, e.g. on one line */
   HB_ERROR_SYSTEM_SINGULAR = 91,   /* the interpolation equations have no answer in double precision */
-  HB_ERROR_KERNEL_FAILED = 92,     /* a kernel of the caller's threw, or gave a number that is not finite */
-
-  /* files */
-  HB_ERROR_FILE_NOT_GLB = 100,
-  HB_ERROR_FILE_TRUNCATED = 101,
-  HB_ERROR_FILE_INVALID = 102,
-  HB_ERROR_FILE_UNSUPPORTED = 103, /* valid, but needs a feature or extension we do not read */
-  HB_ERROR_FILE_UNREADABLE = 104,  /* network or file system */
-
-  /* the command */
-  HB_ERROR_USAGE = 140, /* arguments that cannot be meant */
-  HB_ERROR_OUTPUT_UNWRITABLE = 141,
-  HB_ERROR_BODY_MISSING = 142, /* a model that is not baked */
-  HB_ERROR_POSE_SPACE_MISSING = 143,
-  HB_ERROR_HANDLES_INVALID = 144, /* handles.json says something unknown, or not all that it has to */
-
-  /* outlines and pictures */
-  HB_ERROR_OUTLINE_TOO_FEW = 120, /* fewer than three points in a ring */
-  HB_ERROR_OUTLINE_NOT_FINITE = 121,
-  HB_ERROR_OUTLINE_CROSSES = 122,  /* two edges that cross or touch */
-  HB_ERROR_OUTLINE_NO_AREA = 123,  /* nothing lies inside */
-  HB_ERROR_OUTLINE_TOO_FINE = 124, /* too many points, or gaps too narrow for them */
-  HB_ERROR_PICTURE_OPAQUE = 125,   /* no transparency that would give an outline */
-  HB_ERROR_PICTURE_EMPTY = 126     /* nothing but transparency */
+  HB_ERROR_KERNEL_FAILED = 92      /* a kernel of the caller's threw, or gave a number that is not finite */
 } hb_status;
 
 /* What a bake may say besides its body: it worked, but perhaps not as meant. Names and numbers are as stable as those of errors. */

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/irbf/sphere_tree.hpp"
 
@@ -10,12 +11,8 @@ namespace handlebody {
 
 namespace {
 
-// Work of a bounded step: enough to be worth a call, little enough for a frame.
-constexpr Index points_per_step = 1024, codes_per_step = 1 << 20;
-constexpr double far_outside = 1.5;  // spacings beyond which stencils hold on to the nearest voxel
-// An open sheet winds about the points on its hollow side a little more than half; an inside has at least a fourth of it
-// surrounded.
-constexpr double surely = 0.75;
+/** Voxels whose depth is measured in a step: enough to be worth a call, little enough for a frame. */
+constexpr Index voxels_per_step = 1024;
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
@@ -45,11 +42,6 @@ Result<Done> check_options(const BakeOptions& options, Index vertices) {
   return Done{};
 }
 
-std::uint16_t nearest_code(double code) {
-  const double above = code + 0.5;
-  return static_cast<std::uint16_t>(above);
-}
-
 /** The domain that was given, in solver space. */
 Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& voxels, const Normalization& normalization) {
   const double cells = double(model.dims[0]) * double(model.dims[1]) * double(model.dims[2]);
@@ -69,12 +61,10 @@ Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& vo
 
 }  // namespace
 
-// Out of line: there is a lot to move and to destroy.
 Bake::Bake() = default;
-Bake::Bake(Bake&&) noexcept = default;
 Bake::~Bake() = default;
 
-Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options) {
+Result<std::unique_ptr<Bake>> Bake::begin(const ConstPoints& positions, const ConstTriangles& triangles, BakeOptions options) {
   if (auto checked = check_options(options, positions.rows()); !checked) return checked.error();
   if (auto checked = check_mesh(positions, triangles, options.cloud); !checked) return checked.error();
   if (options.cloud && options.method == DistanceMethod::mean_value) {
@@ -82,52 +72,47 @@ Result<Bake> Bake::begin(const ConstPoints& positions, const ConstTriangles& tri
                  {"Use another distance, or give a closed mesh."});
   }
 
-  Bake bake;
+  std::unique_ptr<Bake> made(new Bake);
+  Bake& bake = *made;
   bake.options_ = std::move(options);
   bake.body_.positions = positions;
   bake.body_.triangles = triangles;
-  bake.body_.normalization = normalize(positions);
+  const Normalization normalization = bake.body_.normalization = normalize(positions);
   bake.weld_ = weld_vertices(positions);
-  const auto vertices = std::ssize(bake.weld_.unique);
+  const Index vertices = std::ssize(bake.weld_.unique);
   bake.options_.centers = std::min(bake.options_.centers, vertices);
   bake.solver_positions_.resize(vertices, 3);
-  for (Index v = 0; v < vertices; ++v) {
-    bake.solver_positions_.row(v) = bake.body_.normalization.to_solver(positions.row(bake.weld_.unique[v]).transpose());
-  }
+  for (Index v = 0; v < vertices; ++v)
+    bake.solver_positions_.row(v) = normalization.to_solver(positions.row(bake.weld_.unique[v]).transpose());
   bake.triangles_ = weld_triangles(bake.weld_, triangles);
   if (bake.options_.cloud) {  // a point is a triangle without extent, to be near to
     bake.triangles_.resize(vertices, 3);
     for (Index v = 0; v < vertices; ++v) bake.triangles_.row(v).setConstant(static_cast<std::uint32_t>(v));
   }
-  const Vector3 low = bake.solver_positions_.colwise().minCoeff(), high = bake.solver_positions_.colwise().maxCoeff();
+
   const auto& given = bake.options_.grid;
-  auto grid =
-      given ? solver_grid(*given, bake.options_.voxels, bake.body_.normalization) : make_grid(low, high, bake.options_.resolution);
+  const Vector3 low = bake.solver_positions_.colwise().minCoeff(), high = bake.solver_positions_.colwise().maxCoeff();
+  auto grid = given ? solver_grid(*given, bake.options_.voxels, normalization) : make_grid(low, high, bake.options_.resolution);
   if (!grid) return grid.error();
-  bake.grid_ = *grid;
-  return bake;
+  InteriorOptions interior;
+  interior.source = given ? InteriorSource::voxels : bake.options_.cloud ? InteriorSource::cloud : InteriorSource::surface;
+  interior.voxels = std::move(bake.options_.voxels);
+  interior.allow_sheet = bake.options_.method == DistanceMethod::euclidean;
+  interior.resolution = bake.options_.resolution;
+  interior.centers = bake.options_.centers;
+  bake.interior_ = std::make_unique<InteriorVoxels>(bake.solver_positions_, bake.triangles_, *grid, std::move(interior));
+  return made;
 }
 
 Result<double> Bake::step() {
   switch (phase_) {
-    case Phase::orient:
-      orient();
+    case Phase::interior: {
+      auto done = interior_->step();
+      if (!done) return done.error();
+      part_ = *done;
+      if (part_ >= 1) take_interior();
       break;
-    case Phase::cross:
-      if (cross_triangles(0)) phase_ = Phase::voxelize;
-      break;
-    case Phase::voxelize:
-      voxelize_slab();
-      break;
-    case Phase::fill:
-      if (auto done = fill(); !done) return done.error();
-      break;
-    case Phase::domain:
-      if (auto done = make_domain(); !done) return done.error();
-      break;
-    case Phase::link:
-      link_axis();
-      break;
+    }
     case Phase::depth:
       measure_depth();
       break;
@@ -137,18 +122,13 @@ Result<double> Bake::step() {
     case Phase::prepare: {
       auto done = distance_->step();
       if (!done) return done.error();
-      prepared_ = *done;
-      if (prepared_ >= 1) phase_ = Phase::stencils;
+      part_ = *done;
+      if (part_ >= 1) begin_sampling();
       break;
     }
-    case Phase::stencils:
-      sample_vertices();
-      break;
     case Phase::centers:
-      add_center();
-      break;
-    case Phase::quantize:
-      quantize();
+      part_ = sampling_->step();
+      if (part_ >= 1) take_centers();
       break;
     case Phase::finished:
       break;
@@ -156,156 +136,87 @@ Result<double> Bake::step() {
   return progress();
 }
 
+void Bake::enter(Phase phase) {
+  phase_ = phase;
+  part_ = 0;
+}
+
+void Bake::take_interior() {
+  body_.domain = std::move(interior_->domain());
+  warnings_ = interior_->warnings();
+  for (BakeWarning& warning : warnings_)
+    if (warning.place) warning.place = body_.normalization.to_model(*warning.place);
+  enter(Phase::depth);
+}
+
 void Bake::measure_depth() {
-  const auto count = static_cast<std::size_t>(body_.domain.size());
-  const std::size_t end = sheet_ ? count : std::min(count, depth_.size() + points_per_step);
+  const bool sheet = interior_->sheet();
+  const auto& on_bridge = interior_->on_bridge();
+  const auto& voxels = body_.domain.voxels();
+  const std::size_t count = voxels.size();
+  const std::size_t end = sheet ? count : std::min(count, depth_.size() + voxels_per_step);
   for (std::size_t v = depth_.size(); v < end; ++v) {
     // No more than a step farther than the voxel before it, where that is its neighbor.
-    const auto& voxels = body_.domain.voxels();
-    const bool beside = v > 0 && !on_bridge_[v - 1] && voxels[v] == voxels[v - 1] + 1;
-    const double bound = beside ? 1.0001 * (depth_[v - 1] + grid_.spacing) : std::numeric_limits<double>::infinity();
-    depth_.push_back(sheet_ || on_bridge_[v] ? 0 : tree_->distance(body_.domain.center(static_cast<Index>(v)), bound));
+    const bool beside = v > 0 && !on_bridge[v - 1] && voxels[v] == voxels[v - 1] + 1;
+    const double bound = beside ? 1.0001 * (depth_[v - 1] + body_.domain.grid().spacing) : std::numeric_limits<double>::infinity();
+    const Vector3 center = body_.domain.center(static_cast<Index>(v));
+    depth_.push_back(sheet || on_bridge[v] ? 0 : interior_->tree().distance(center, bound));
   }
-  if (end == count) phase_ = Phase::spheres;
+  if (end == count) enter(Phase::spheres);
 }
 
 Result<Done> Bake::pack() {
   SpherePackingOptions packing;
   packing.max_spheres = options_.max_spheres;
-  body_.spheres = sheet_                                    ? spread_spheres(body_.domain, options_.max_spheres)
+  body_.spheres = interior_->sheet()                        ? spread_spheres(body_.domain, options_.max_spheres)
                   : options_.packing == SpherePacking::tree ? sphere_tree(body_.domain, depth_, packing)
                                                             : pack_spheres(body_.domain, depth_, packing);
   // A part whose only voxels lie on its surface still gets a sphere that has an extent.
-  for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * grid_.spacing);
-  tree_.reset();
+  for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * body_.domain.grid().spacing);
+  interior_.reset();
   depth_ = {};
   auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, triangles_);
   if (!distance) return distance.error();
   distance_ = std::move(*distance);
-  phase_ = Phase::prepare;
+  enter(Phase::prepare);
   return Done{};
 }
 
-void Bake::sample_vertices() {
-  const Index count = solver_positions_.rows();
-  for (const Index end = std::min(count, samples_.size() + points_per_step); samples_.size() < end;) {
-    const Index v = samples_.size();
-    const Vector3 place = solver_positions_.row(v).transpose();
-    samples_.add(body_.domain, place);
-    const double far = (body_.domain.center(body_.domain.nearest(place)) - place).norm();
-    if (far <= far_outside * grid_.spacing) continue;
-    ++outside_;
-    if (far > how_far_outside_) how_far_outside_ = far, farthest_outside_ = v;
-  }
-  if (samples_.size() < count) return;
-  if (outside_ > 0) {
-    const std::uint32_t vertex = weld_.unique[farthest_outside_];
-    warnings_.push_back({HB_WARNING_PART_OUTSIDE, outside_, how_far_outside_ * body_.normalization.diagonal,
+void Bake::begin_sampling() {
+  std::vector<double> density;
+  if (!options_.density.empty())
+    for (const std::uint32_t vertex : weld_.unique) density.push_back(options_.density[vertex]);
+  sampling_ = std::make_unique<CenterSampling>(body_.domain, solver_positions_, *distance_, options_.centers, std::move(density));
+  enter(Phase::centers);
+}
+
+void Bake::take_centers() {
+  const CenterSampling::Outside& outside = sampling_->outside();
+  if (outside.count > 0) {
+    const std::uint32_t vertex = weld_.unique[outside.farthest];
+    warnings_.push_back({HB_WARNING_PART_OUTSIDE, outside.count, outside.distance * body_.normalization.diagonal,
                          Vector3(body_.positions.row(vertex).transpose()), static_cast<Index>(vertex)});
   }
-
-  // Farthest-point sampling (§4.3) starts at the vertex farthest from the middle of the box. Centers as dense by a factor are
-  // closer by its root, on a surface: so much farther does a vertex count.
-  const auto vertices = static_cast<std::size_t>(count);
-  coverage_.assign(vertices, std::numeric_limits<double>::infinity());
-  weight_.assign(vertices, 1);
-  if (!options_.density.empty()) {
-    for (std::size_t v = 0; v < vertices; ++v) weight_[v] = std::sqrt(options_.density[weld_.unique[v]]);
-  }
-  double best = -1;
-  for (Index v = 0; v < count; ++v) {
-    const double distance = weight_[v] * weight_[v] * solver_positions_.row(v).squaredNorm();
-    if (distance > best) best = distance, next_center_ = v;
-  }
-  field_.resize(body_.domain.size());
-  body_.distances.reserve(field_.size() * static_cast<std::size_t>(options_.centers));
-  phase_ = Phase::centers;
+  for (const std::uint32_t center : sampling_->centers()) body_.centers.push_back(weld_.unique[center]);
+  body_.distances = std::move(sampling_->distances());
+  body_.distance_scale = sampling_->distance_scale();
+  sampling_.reset();
+  enter(Phase::finished);
 }
 
-void Bake::add_center() {
-  body_.centers.push_back(weld_.unique[next_center_]);
-  const Vector3 center = samples_.point(next_center_);
-  distance_->measure(center, field_.data());
-
-  // Codes to this center's own scale, so that no floats have to be kept until the longest distance is known. Bridges make the
-  // domain connected; should a voxel still be out of reach, it is as far as can be.
-  double longest = 1e-9;
-  for (const double distance : field_) {
-    if (distance > longest && distance <= std::numeric_limits<double>::max()) longest = distance;
-  }
-  scales_.push_back(longest / 65535);
-  for (const double distance : field_) {
-    body_.distances.push_back(nearest_code(std::min(distance, longest) * (65535 / longest)));
-  }
-
-  // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices that lie nearer to the new one
-  // as the crow flies than to any before can come nearer to it.
-  const auto interior = [&](std::uint32_t v) { return field_[v]; };
-  waiting_.clear();
-  double farthest = -1;
-  const auto compare = [&](Index v) {
-    const double far = coverage_[v] * weight_[v];
-    if (far > farthest || (far == farthest && v < next_center_)) farthest = far, next_center_ = v;
-  };
-  for (Index v = 0; v < samples_.size(); ++v) {
-    if ((samples_.point(v) - center).squaredNorm() < coverage_[v] * coverage_[v]) {
-      waiting_.push_back(v);
-    } else {
-      compare(v);
-    }
-  }
-  const bool many = 4 * waiting_.size() > coverage_.size();
-  if (many) samples_.distance_ratios(center, interior, ratios_);
-  for (const Index v : waiting_) {
-    const double distance = many ? samples_.distance(ratios_, center, v) : samples_.distance_from(center, interior, v);
-    coverage_[v] = std::min(coverage_[v], distance);
-    compare(v);
-  }
-  if (std::ssize(body_.centers) < options_.centers) return;
-  body_.distance_scale = *std::max_element(scales_.begin(), scales_.end());
-  next_ = 0;
-  phase_ = Phase::quantize;
-}
-
-/** All centers' codes to one scale, which rounds them once more: they are off by one code at most. */
-void Bake::quantize() {
-  const auto row = std::ssize(field_);
-  for (Index done = 0; done < codes_per_step && next_ < options_.centers; done += row, ++next_) {
-    const double factor = scales_[next_] / body_.distance_scale;
-    std::uint16_t* codes = body_.distances.data() + next_ * row;
-    for (Index v = 0; v < row; ++v) codes[v] = nearest_code(codes[v] * factor);
-  }
-  if (next_ == options_.centers) phase_ = Phase::finished;
-}
-
+/** Shares of the time on the dog with 200 centers at 96 voxels, native. */
 double Bake::progress() const {
-  // Shares of the time on the dog with 200 centers at 96 voxels, native.
-  const auto part = [](auto done, auto all) { return static_cast<double>(done) / std::max(1.0, static_cast<double>(all)); };
   switch (phase_) {
-    case Phase::orient:
-      return 0;
-    case Phase::cross:
-      return 0.10 + 0.02 * part(next_, triangles_.rows());
-    case Phase::voxelize:
-      return 0.12 + 0.02 * part(next_, grid_.dims[2]);
-    case Phase::fill:
-      return 0.14;
-    case Phase::domain:
-      return 0.15;
-    case Phase::link:
-      return 0.15 + 0.01 * axis_;
+    case Phase::interior:
+      return 0.18 * part_;
     case Phase::depth:
-      return 0.18 + 0.08 * part(depth_.size(), body_.domain.size());
+      return 0.18 + 0.08 * static_cast<double>(depth_.size()) / static_cast<double>(body_.domain.size());
     case Phase::spheres:
       return 0.26;
     case Phase::prepare:
-      return 0.27 + 0.05 * prepared_;
-    case Phase::stencils:
-      return 0.32 + 0.08 * part(samples_.size(), solver_positions_.rows());
+      return 0.27 + 0.05 * part_;
     case Phase::centers:
-      return 0.40 + 0.59 * part(body_.centers.size(), options_.centers);
-    case Phase::quantize:
-      return 0.99;
+      return 0.32 + 0.68 * part_;
     case Phase::finished:
       return 1;
   }

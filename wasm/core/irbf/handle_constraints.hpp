@@ -9,7 +9,6 @@
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
 #include "core/mesh/triangle_tree.hpp"
-#include "core/numerics/dense.hpp"
 
 namespace handlebody {
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/irbf/sphere_energy.hpp"
+#include "core/mesh/enclosed_volume.hpp"
 #include "core/numerics/closest_rotation.hpp"
 
 namespace handlebody {
@@ -15,6 +16,8 @@ namespace {
 constexpr double most_bytes = 1.5e9;
 /** Multiplications that setting handles may spend on a smaller matrix for the frames: some ten milliseconds. */
 constexpr double most_handle_products = 5e7;
+/** Rows of Ψ that are turned into doubles for a product. */
+constexpr Index vertices_at_once = 256;
 
 Error invalid_option(const char* name, double value, const char* remedy) {
   return {HB_ERROR_INVALID_OPTION, {"IRBF's ", name, " is ", value, "."}, {remedy}, HB_CULPRIT_OPTION};
@@ -66,7 +69,7 @@ Result<Done> Irbf::prepare_spheres() {
   smoothness_ = options_.smoothness > 0 ? options_.smoothness : automatic_smoothness(*energy);
   edge_rows_ = std::move(energy->rows);
   gram_ = MatrixXd::Zero(4 + centers, 4 + centers);
-  add_gram(edge_rows_, gram_);
+  gram_.selfadjointView<Eigen::Lower>().rankUpdate(edge_rows_.transpose());
   gram_.diagonal().tail(centers).array() += smoothness_;
   local_global_ = std::make_unique<LocalGlobal>(std::move(energy->edges), std::move(energy->edge_scale));
 
@@ -147,18 +150,14 @@ std::unique_ptr<FrameKernel> Irbf::make_handle_kernel(const ReducedSystem& syste
   const Index columns = system.inverse.cols(), centers = basis_->size(), count = psi_.rows();
   const double products = static_cast<double>(count) * static_cast<double>(columns * (4 + centers));
   if (count == 0 || columns >= centers || products >= most_handle_products) return nullptr;
-  const Matrix inverse = system.inverse;
   MatrixF matrix(count, columns);
-  Vector sums(columns);
-  for (Index v = 0; v < count; ++v) {
-    sums = inverse.row(3);
-    const auto add = [&](Index row, double factor) {
-      const double* numbers = &inverse(row, 0);
-      for (Index c = 0; c < columns; ++c) sums[c] += factor * numbers[c];
-    };
-    for (Index axis = 0; axis < 3; ++axis) add(axis, static_cast<double>(rest_(v, axis)));
-    for (Index c = 0; c < centers; ++c) add(4 + c, static_cast<double>(psi_(v, c)));
-    matrix.row(v) = sums.cast<float>();
+  MatrixXd parameters(std::min(count, vertices_at_once), 4 + centers);  // [x 1 Ψ], some vertices of it
+  for (Index first = 0; first < count; first += vertices_at_once) {
+    const Index some = std::min(vertices_at_once, count - first);
+    parameters.topLeftCorner(some, 3) = rest_.middleRows(first, some).cast<double>();
+    parameters.col(3).setOnes();
+    parameters.topRightCorner(some, centers) = psi_.middleRows(first, some).cast<double>();
+    matrix.middleRows(first, some) = (parameters.topRows(some) * system.inverse).cast<float>();
   }
   return std::make_unique<FrameKernel>(rest_, matrix, options_.precision);
 }
@@ -200,19 +199,21 @@ Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   }
   const LocalGlobalReport done = iteration.run({options.max_iterations, options.tolerance, options.accelerate});
 
-  multiply(system_.inverse, iteration.right_hand_side(), work_.solution);
-  multiply(constraints_.rows(), work_.solution, work_.missed);
+  for (Index axis = 0; axis < 3; ++axis) {
+    work_.solution.col(axis).noalias() = system_.inverse * iteration.right_hand_side().col(axis);
+    work_.missed.col(axis).noalias() = constraints_.rows() * work_.solution.col(axis);
+  }
   work_.missed -= iteration.constraints() / system_.weight;
   linear_ = turn * (Matrix3::Identity() + work_.solution.topRows<3>().transpose()) - Matrix3::Identity();
   translation_ = frame.to + turn * (work_.solution.row(3).transpose() - frame.from);
-  coefficients_ = work_.solution.bottomRows(basis_->size()).lazyProduct(turn.transpose());
+  coefficients_.noalias() = work_.solution.bottomRows(basis_->size()) * turn.transpose();
   for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = turn * iteration.rotations()[b];
   solved_ = true;
   by_handles_ = handle_kernel_ != nullptr;
   if (by_handles_) {
     carried_linear_ = turn - Matrix3::Identity();
     carried_translation_ = frame.to - turn * frame.from;
-    right_hand_side_ = iteration.right_hand_side().lazyProduct(turn.transpose());
+    right_hand_side_.noalias() = iteration.right_hand_side() * turn.transpose();
   }
 
   SolveReport report;
@@ -267,12 +268,9 @@ Result<Points> Irbf::evaluate(const ConstPoints& points) const {
   for (Index i = 0; i < solver.rows(); ++i) samples.add(body_.domain, solver.row(i).transpose());
   Matrix phi = Matrix::Zero(solver.rows(), basis_->size());
   if (auto done = basis_->evaluate<double>(samples, phi); !done) return done.error();
-  Points deformed = points;
-  for (Index i = 0; i < solver.rows(); ++i) {
-    Vector3 displacement = linear_ * solver.row(i).transpose() + translation_;
-    for (Index c = 0; c < phi.cols(); ++c) displacement += phi(i, c) * coefficients_.row(c).transpose();
-    deformed.row(i) += body_.normalization.diagonal * displacement.transpose();
-  }
+  Points displacements = solver * linear_.transpose() + phi * coefficients_;
+  displacements.rowwise() += translation_.transpose();
+  Points deformed = points + body_.normalization.diagonal * displacements;
   return deformed;
 }
 

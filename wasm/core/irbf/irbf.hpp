@@ -16,7 +16,6 @@
 #include "core/irbf/reduced_system.hpp"
 #include "core/mesh/vertex_normals.hpp"
 #include "core/mesh/weld.hpp"
-#include "core/numerics/dense.hpp"
 
 namespace handlebody {
 

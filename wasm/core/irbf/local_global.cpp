@@ -39,10 +39,9 @@ double LocalGlobal::energy(const std::vector<Matrix3>& rotations) {
     const Matrix3 turn = rotations[b] - Matrix3::Identity();
     right_hand_side_.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
   }
-  multiply_symmetric(*hat_, right_hand_side_, image_);
-  double sum = 0;
-  for (Index i = 0; i < image_.size(); ++i) sum += right_hand_side_.data()[i] * (right_hand_side_.data()[i] - image_.data()[i]);
-  return sum;
+  for (Index axis = 0; axis < 3; ++axis)
+    image_.col(axis).noalias() = hat_->selfadjointView<Eigen::Lower>() * right_hand_side_.col(axis);
+  return right_hand_side_.cwiseProduct(right_hand_side_ - image_).sum();
 }
 
 void LocalGlobal::start(double energy) {

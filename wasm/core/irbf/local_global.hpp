@@ -11,7 +11,6 @@
 
 #include "core/irbf/rotation_hessian.hpp"
 #include "core/numerics/anderson.hpp"
-#include "core/numerics/dense.hpp"
 
 namespace handlebody {
 

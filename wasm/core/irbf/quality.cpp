@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/mesh/kuhn_tetrahedra.hpp"
 #include "core/numerics/closest_rotation.hpp"
 
 namespace handlebody {
@@ -13,13 +14,10 @@ namespace handlebody {
 namespace {
 
 constexpr double most_bytes = 1e9;
+/** Rows of Ψ that are turned into doubles for a product. */
+constexpr Index corners_at_once = 256;
 /** A tetrahedron is flat when its volume is below this part of its longest edge's cube. */
 constexpr double flat = 1e-9;
-
-/** The six ways from corner 0 of a cube to corner 7 along three edges (Kuhn 1960); corner i + 2j + 4k is (i, j, k). Volumes are
- *  positive. */
-constexpr std::array<std::array<int, 4>, 6> kuhn{
-    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}}};
 
 Matrix3 edges_of(const std::uint32_t* corners, const Points& points) {
   Matrix3 edges;
@@ -56,18 +54,6 @@ Quality measure_tetrahedra(const Eigen::Ref<const Tetrahedra>& tetrahedra, const
   }
   quality.volume_ratio = before != 0 ? after / before : 1;
   return quality;
-}
-
-double enclosed_volume(const Points& positions, const Triangles& triangles) {
-  if (positions.rows() == 0) return 0;
-  const Vector3 origin = positions.row(0);
-  double sum = 0;
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    Matrix3 corners;
-    for (Index k = 0; k < 3; ++k) corners.col(k) = positions.row(triangles(t, k)).transpose() - origin;
-    sum += determinant(corners);
-  }
-  return sum / 6;
 }
 
 ColumnRanges ColumnRanges::of(const MatrixF& matrix) {
@@ -122,9 +108,9 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
       ++uses[number];
       corners[c] = static_cast<std::uint32_t>(number);
     }
-    for (std::size_t t = 0; t < kuhn.size(); ++t)
+    for (std::size_t t = 0; t < kuhn_tetrahedra.size(); ++t)
       for (std::size_t k = 0; k < 4; ++k)
-        quality->tetrahedra_(6 * v + static_cast<Index>(t), static_cast<Index>(k)) = corners[kuhn[t][k]];
+        quality->tetrahedra_(6 * v + static_cast<Index>(t), static_cast<Index>(k)) = corners[kuhn_tetrahedra[t][k]];
   }
   // Most voxels have one corner of their own and those of thin shapes up to eight: how much the basis takes is known only now.
   const double bytes = fixed + 4.0 * static_cast<double>(samples.size()) * static_cast<double>(basis.size());
@@ -148,13 +134,12 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
 }
 
 Quality VoxelQuality::measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal) {
-  for (Index i = 0; i < rest_.rows(); ++i) {
-    Vector3 moved = rest_.row(i).transpose() + linear * rest_.row(i).transpose() + translation;
-    const float* row = &psi_(i, 0);
-    double x = 0, y = 0, z = 0;
-    for (Index c = 0; c < psi_.cols(); ++c)
-      x += row[c] * coefficients(c, 0), y += row[c] * coefficients(c, 1), z += row[c] * coefficients(c, 2);
-    deformed_.row(i) = moved + Vector3(x, y, z);
+  for (Index first = 0; first < rest_.rows(); first += corners_at_once) {
+    const Index some = std::min(corners_at_once, rest_.rows() - first);
+    auto moved = deformed_.middleRows(first, some);
+    moved = rest_.middleRows(first, some) * (Matrix3::Identity() + linear).transpose();
+    moved.rowwise() += translation.transpose();
+    moved += psi_.middleRows(first, some).cast<double>() * coefficients;
   }
   Quality quality = measure_tetrahedra(tetrahedra_, rest_, deformed_);
   const double cube = diagonal * diagonal * diagonal;

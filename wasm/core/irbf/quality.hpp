@@ -25,9 +25,6 @@ struct Quality {
  *  relative to their edges, are left out. */
 Quality measure_tetrahedra(const Eigen::Ref<const Tetrahedra>& tetrahedra, const Points& rest, const Points& deformed);
 
-/** Volume that a closed, consistently oriented surface encloses (divergence theorem). */
-double enclosed_volume(const Points& positions, const Triangles& triangles);
-
 struct ColumnRanges {
   std::vector<float> low, high;
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/errors/result.hpp"
-#include "core/numerics/dense.hpp"
+#include "core/numerics/types.hpp"
 
 namespace handlebody {
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 namespace handlebody {
 
@@ -28,7 +29,7 @@ Matrix3 exponential(const Vector3& turn) {
 RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat) {
   const Index spheres = edges.rows() / 3;
   if (spheres > most_spheres) return;
-  factor_ = MatrixXd::Zero(edges.rows(), edges.rows());
+  MatrixXd hessian = MatrixXd::Zero(edges.rows(), edges.rows());
   gradient_.resize(edges.rows());
   for (Index b = 0; b < spheres; ++b) {
     for (Index a = b; a < spheres; ++a) {
@@ -40,10 +41,11 @@ RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat) {
           block += k * (e.dot(f) * Matrix3::Identity() - f * e.transpose());
         }
       }
-      factor_.block<3, 3>(3 * a, 3 * b) = block;
+      hessian.block<3, 3>(3 * a, 3 * b) = block;
     }
   }
-  if (!factor_cholesky(factor_)) factor_.resize(0, 0);
+  factor_.emplace(std::move(hessian));
+  if (!factor_->succeeded()) factor_.reset();
 }
 
 void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& rotations,
@@ -55,7 +57,7 @@ void RotationHessian::step(const Points& edges, const Columns3& residual, const 
       torque += Vector3(edges.row(i)).cross(Vector3(rotation.transpose() * residual.row(i).transpose()));
     gradient_.segment<3>(3 * b) = torque;
   }
-  solve_cholesky(factor_, gradient_);
+  factor_->solve_in_place(gradient_);
   for (std::size_t b = 0; b < rotations.size(); ++b)
     turned[b] = rotations[b] * exponential(-gradient_.segment<3>(3 * static_cast<Index>(b)));
 }

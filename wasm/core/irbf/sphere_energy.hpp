@@ -4,7 +4,6 @@
 #include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
-#include "core/numerics/dense.hpp"
 
 namespace handlebody {
 

@@ -26,8 +26,8 @@ void face_normals(const std::array<Vector3, 4>& p, Index corners, std::array<Vec
 SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
   const Index corners = mesh.simplices.cols(), d = mesh.positions.cols();
   const double order = static_cast<double>(corners) - 1;
-  SparseEntries entries(mesh.positions.rows());
-  entries.reserve(mesh.simplices.rows() * corners * corners);
+  std::vector<Triplet> entries;
+  entries.reserve(2 * mesh.simplices.rows() * corners * (corners - 1));
   std::array<Vector3, 4> p, normals;
   for (Index s = 0; s < mesh.simplices.rows(); ++s) {
     const std::uint32_t* const v = mesh.simplices.data() + s * corners;
@@ -41,14 +41,16 @@ SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
     for (Index i = 0; i < corners; ++i) {
       for (Index j = 0; j < i; ++j) {
         const double entry = scale * normals[i].dot(normals[j]);
-        entries.put(v[i], v[j], entry);
-        entries.put(v[j], v[i], entry);
-        entries.put(v[i], v[i], -entry);
-        entries.put(v[j], v[j], -entry);
+        entries.emplace_back(v[i], v[j], entry);
+        entries.emplace_back(v[j], v[i], entry);
+        entries.emplace_back(v[i], v[i], -entry);
+        entries.emplace_back(v[j], v[j], -entry);
       }
     }
   }
-  return entries.matrix();
+  SparseMatrix laplacian(mesh.positions.rows(), mesh.positions.rows());
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  return laplacian;
 }
 
 }  // namespace handlebody

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/mesh/simplex_mesh.hpp"
-#include "core/numerics/sparse_matrix.hpp"
+#include "core/numerics/sparse.hpp"
 
 namespace handlebody {
 

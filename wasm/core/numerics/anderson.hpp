@@ -2,9 +2,7 @@
 // last few G(x) whose residuals G(x) − x cancel best.
 #pragma once
 
-#include <vector>
-
-#include "core/numerics/types.hpp"
+#include "core/numerics/decompositions.hpp"
 
 namespace handlebody {
 
@@ -21,13 +19,12 @@ class Anderson {
   void accelerate(const double* x, const double* g, double* next);
 
  private:
-  bool solve(Index count);
-
-  Index size_, window_, steps_ = 0;
+  Index window_, steps_ = 0;
   MatrixXd residuals_, images_;  // differences between successive ones, one a column, in turns
   Vector last_residual_, last_image_, residual_;
-  MatrixXd gram_;  // of the residuals' differences
-  MatrixXd system_;
+  MatrixXd gram_;    // of the residuals' differences
+  MatrixXd system_;  // gram_, with a one on the diagonal where a step is yet to come
+  Cholesky factor_;
   Vector weights_;
 };
 

@@ -16,6 +16,11 @@ Cholesky::Cholesky(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a)
   succeeded_ = llt_->info() == Eigen::Success && factor_->diagonal().allFinite();
 }
 
+void Cholesky::compute(const MatrixXd& a) {
+  llt_->compute(a);
+  succeeded_ = llt_->info() == Eigen::Success && factor_->allFinite();
+}
+
 double Cholesky::rcond() const {
   return llt_->rcond();
 }

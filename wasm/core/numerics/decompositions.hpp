@@ -15,6 +15,9 @@ class Cholesky {
  public:
   explicit Cholesky(MatrixXd a);
 
+  /** Factors another matrix of the same size. Allocates nothing. */
+  void compute(const MatrixXd& a);
+
   /** False where a pivot is not positive or any number of the factor is not finite: Eigen::LLT itself lets NaN pass. Nothing else
    * may be called then. */
   bool succeeded() const { return succeeded_; }

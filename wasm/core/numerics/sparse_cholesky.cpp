@@ -1,7 +1,5 @@
 #include "core/numerics/sparse_cholesky.hpp"
 
-#include <Eigen/SparseCore>
-// After SparseCore, on which it stands.
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <limits>
@@ -28,11 +26,11 @@ void subtract(double* y, const std::uint32_t* below, std::uint32_t count, const 
 
 Indices minimum_degree_order(const SparseMatrix& a) {
   const Index n = a.rows();
-  Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(n, n);
-  pattern.resizeNonZeros(std::ssize(a.columns));
-  std::copy(a.starts.begin(), a.starts.end(), pattern.outerIndexPtr());
-  std::copy(a.columns.begin(), a.columns.end(), pattern.innerIndexPtr());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::SparseMatrix<char, Eigen::ColMajor, std::int32_t> pattern(n, n);  // without A's numbers, which do not matter
+  pattern.resizeNonZeros(a.nonZeros());
+  std::copy_n(a.outerIndexPtr(), n + 1, pattern.outerIndexPtr());
+  std::copy_n(a.innerIndexPtr(), a.nonZeros(), pattern.innerIndexPtr());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, std::int32_t> order;
   Eigen::internal::minimum_degree_ordering(pattern, order);
   return {order.indices().data(), order.indices().data() + n};
 }
@@ -54,9 +52,8 @@ Result<std::unique_ptr<SparseCholesky>> SparseCholesky::analyze(const SparseMatr
   parent.assign(n, no_index);
   for (std::uint32_t k = 0; k < n; ++k) {
     seen[k] = k;
-    const std::uint32_t row = result.order_[k];
-    for (std::uint32_t e = a.starts[row]; e < a.starts[row + 1]; ++e) {
-      std::uint32_t i = result.place_[a.columns[e]];
+    for (SparseMatrix::InnerIterator entry(a, result.order_[k]); entry; ++entry) {
+      std::uint32_t i = result.place_[entry.col()];
       if (i > k) continue;
       for (; seen[i] != k; i = parent[i]) {
         if (parent[i] == no_index) parent[i] = k;
@@ -112,15 +109,14 @@ double SparseCholesky::factor_part(const SparseMatrix& a, double multiplications
     std::uint32_t top = n;
     double diagonal = 0;
     seen[k] = k;
-    const std::uint32_t row = order_[k];
-    for (std::uint32_t e = a.starts[row]; e < a.starts[row + 1]; ++e) {
-      std::uint32_t i = place_[a.columns[e]];
+    for (SparseMatrix::InnerIterator entry(a, order_[k]); entry; ++entry) {
+      std::uint32_t i = place_[entry.col()];
       if (i > k) continue;
       if (i == k) {
-        diagonal = a.values[e];
+        diagonal = entry.value();
         continue;
       }
-      y[i] = a.values[e];
+      y[i] = entry.value();
       std::uint32_t length = 0;
       for (; seen[i] != k; i = parent_[i]) {
         path[length++] = i;
@@ -203,6 +199,7 @@ void SparseCholesky::solve_columns(double* x, Index stride, int count) {
 
 void SparseCholesky::solve(double* x, Index width) {
   if (width == 1) return solve_columns<1>(x, 1, 1);
+  if (width == 2) return solve_columns<2>(x, 2, 2);  // a deformation's frame in the plane
   for (Index done = 0; done < width; done += together)
     solve_columns<together>(x + done, width, static_cast<int>(std::min<Index>(together, width - done)));
 }

@@ -2,13 +2,17 @@
 //
 // Rows are put in approximate minimum degree order (Amestoy, Davis & Duff 1996: Eigen's). The elimination tree tells what a factor
 // will need before any of it is allocated (Liu 1990); factoring goes row by row (Davis 2005).
+//
+// Why not Eigen's SimplicialLDLT, against which this is tested: it takes 2.5 to 3 times as long to factor, solves columns one by
+// one, which reads the factor once for each, cannot be left and resumed, and allocates before its size is known.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "core/errors/result.hpp"
-#include "core/numerics/sparse_matrix.hpp"
+#include "core/numerics/indices.hpp"
+#include "core/numerics/sparse.hpp"
 
 namespace handlebody {
 

@@ -11,13 +11,17 @@ using Index = Eigen::Index;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Vector = Eigen::VectorXd;
-using MatrixXd = Eigen::MatrixXd;  // column-major: see dense.hpp
+using MatrixXd = Eigen::MatrixXd;  // column-major, as decompositions want it
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /** n×3 positions, one row a point. */
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using PointsF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/** Three columns x, y, z, each contiguous: what a matrix times a vector is taken for, one after the other. With three columns
+ * Eigen's blocked product would pack the matrix first, at twice the time, and allocate. */
+using Columns3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /** m×3 vertex indices, counter-clockwise seen from outside. */
 using Triangles = Eigen::Matrix<std::uint32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;

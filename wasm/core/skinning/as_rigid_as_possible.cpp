@@ -1,11 +1,9 @@
 #include "core/skinning/as_rigid_as_possible.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/mesh/cotangent_laplacian.hpp"
-#include "core/skinning/free_rows.hpp"
 
 namespace handlebody {
 namespace {
@@ -15,20 +13,15 @@ class AsRigidAsPossible final : public HeldDeformation {
   static Result<std::unique_ptr<HeldDeformation>> create(SimplexMesh mesh, HeldVertices held) {
     auto setup = set_up(std::move(mesh), std::move(held));
     if (!setup) return setup.error();
-    auto rows = FreeRows::create(cotangent_laplacian(setup->mesh), setup->owner_of, 1);
-    if (!rows) return rows.error();
-    return std::unique_ptr<HeldDeformation>(new AsRigidAsPossible(std::move(*setup), std::move(*rows)));
+    auto solver = free_solver(cotangent_laplacian(setup->mesh), setup->owner_of);
+    if (!solver) return solver.error();
+    return std::unique_ptr<HeldDeformation>(new AsRigidAsPossible(std::move(*setup), std::move(*solver)));
   }
 
  private:
-  AsRigidAsPossible(Setup setup, std::unique_ptr<FreeRows> rows)
-      : HeldDeformation(std::move(setup)), rows_(std::move(rows)), forces_(displacements_.size()) {
-    double low[2] = {mesh_.positions(0, 0), mesh_.positions(0, 1)}, high[2] = {low[0], low[1]};
-    for (Index k = 0; k < 2 * vertices_; ++k) {
-      low[k % 2] = std::min(low[k % 2], mesh_.positions.data()[k]);
-      high[k % 2] = std::max(high[k % 2], mesh_.positions.data()[k]);
-    }
-    tolerance_ = 1e-7 * std::max(high[0] - low[0], high[1] - low[1]);
+  AsRigidAsPossible(Setup setup, std::unique_ptr<MinQuadWithFixed> solver)
+      : HeldDeformation(std::move(setup)), solver_(std::move(solver)), forces_(vertices_, 2) {
+    tolerance_ = 1e-7 * (mesh_.positions.colwise().maxCoeff() - mesh_.positions.colwise().minCoeff()).maxCoeff();
   }
 
   double fit_rotations();
@@ -37,19 +30,19 @@ class AsRigidAsPossible final : public HeldDeformation {
     double change = tolerance_ + 1;
     for (; report_.iterations < most_iterations_ && change > tolerance_; ++report_.iterations) {
       fit_rotations();
-      change = rows_->solve(forces_.data(), displacements_.data());
+      change = solver_->solve(forces_, displacements_);
     }
     report_.energy = fit_rotations();
   }
 
-  std::unique_ptr<FreeRows> rows_;
-  std::vector<double> forces_;  // n×2
+  std::unique_ptr<MinQuadWithFixed> solver_;
+  Matrix forces_;  // n×2
   double tolerance_;
 };
 
 /** The local step: writes the forces of the closest rotations, and returns E. */
 double AsRigidAsPossible::fit_rotations() {
-  std::fill(forces_.begin(), forces_.end(), 0.0);
+  forces_.setZero();
   const double *const positions = mesh_.positions.data(), *const u = displacements_.data();
   double energy = 0;
   for (Index t = 0; t < mesh_.simplices.rows(); ++t) {
@@ -69,8 +62,8 @@ double AsRigidAsPossible::fit_rotations() {
     const double r[4] = {cosine, -sine, sine, cosine};
     for (Index e = 0; e < 4; ++e) energy += area * (j[e] - r[e]) * (j[e] - r[e]) / 2;
     for (Index k = 0; k < 3; ++k) {
-      forces_[2 * corners[k]] += (cosine - 1) * normals[2 * k] - sine * normals[2 * k + 1];
-      forces_[2 * corners[k] + 1] += sine * normals[2 * k] + (cosine - 1) * normals[2 * k + 1];
+      forces_(corners[k], 0) += (cosine - 1) * normals[2 * k] - sine * normals[2 * k + 1];
+      forces_(corners[k], 1) += sine * normals[2 * k] + (cosine - 1) * normals[2 * k + 1];
     }
   }
   return energy;

@@ -7,10 +7,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "core/numerics/sparse_cholesky.hpp"
-#include "core/skinning/held_vertices.hpp"
+#include "core/skinning/bounded_newton.hpp"
+#include "core/skinning/bounded_sweeps.hpp"
 
 namespace handlebody {
 
@@ -26,9 +25,8 @@ struct BoundedWeightsReport {
 };
 
 /** Stepped, so that it can show progress and be left at any time: weights() are feasible from the start and only get better. Sweeps
- * of the alternating direction method (Boyd et al. 2011) find out roughly which bounds hold; then Newton's method (primal–dual
- * active sets, Hintermüller, Ito & Kunisch 2002) finds the minimum itself, mostly in 3 to 12 steps. A duality gap tells how near it
- * is. */
+ * (bounded_sweeps.hpp) find out roughly which bounds hold; then Newton's method (bounded_newton.hpp) finds the minimum itself. A
+ * duality gap tells how near it is. */
 class BoundedWeights {
  public:
   /** `energy`: B, n×n, symmetric, positive semidefinite, rows summing to 0; `mass`: of the n vertices; `start`: n × handles, the
@@ -42,7 +40,7 @@ class BoundedWeights {
   bool done() const { return phase_ == Phase::done; }
 
   /** n × handles: the best weights so far, ≥ 0, e_j where handle j holds; rows sum to 1 but for rounding. */
-  Matrix weights() const;
+  Matrix weights() const { return problem_->weights(); }
 
   /** Where the gap stayed above the tolerance, the steps were used up or double precision was. */
   const BoundedWeightsReport& report() const { return report_; }
@@ -52,44 +50,23 @@ class BoundedWeights {
 
   BoundedWeights() = default;
 
+  void evaluated();
   void sweep();
-  void evaluate();
   void start_newton();
-  void find_multipliers();
-  bool factor_column(Index handle);
   void newton_step();
-  void solve_columns(const double* right, Index stride, Matrix& solution);
-  Index update_active();
 
   BoundedWeightsOptions options_;
   BoundedWeightsReport report_;
   Phase phase_ = Phase::sweep;
-  double progress_ = 0, rounding_ = 0, bound_ = 0;
+  double progress_ = 0;
   int sweep_ = 0, most_sweeps_ = 0, newton_step_ = 0;
   Index handle_ = 0;
   bool newton_fits_ = false;  // in memory, with a factor a handle
 
-  // Free vertices are numbered in the order of elimination.
-  Indices number_of_;
-  Matrix start_;  // of all vertices
-  SparseMatrix energy_;
-  Vector diagonal_;
-  double held_energy_ = 0;
-  Matrix load_;    // what held vertices add to B x
-  Matrix x_, z_;   // weights before and after projection
-  Matrix forces_;  // B x + load
-  Matrix best_;
-
-  Matrix s_;        // the state of the alternating direction method
-  Vector penalty_;  // of x ≠ z, for each vertex
-  std::unique_ptr<SparseCholesky> penalized_;
-
-  std::vector<unsigned char> active_;  // n × handles: wᵢⱼ is held at 0
-  std::vector<unsigned char> shared_;  // two handles or more are not
-  std::vector<Indices> rows_;          // of each handle: shared, not active
-  std::vector<std::unique_ptr<SparseCholesky>> columns_;
-  Vector multiplier_;  // of Σⱼ wᵢⱼ = 1
-  Vector residual_, direction_, image_, column_;
+  std::unique_ptr<BoundedProblem> problem_;
+  Indices order_;  // of elimination
+  std::unique_ptr<BoundedSweeps> sweeps_;
+  std::unique_ptr<BoundedNewton> newton_;
 };
 
 }  // namespace handlebody

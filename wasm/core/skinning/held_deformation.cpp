@@ -53,11 +53,25 @@ Result<HeldDeformation::Setup> HeldDeformation::set_up(SimplexMesh mesh, HeldVer
   return Setup{std::move(mesh), std::move(owner_of), given.handle_count};
 }
 
+Result<std::unique_ptr<MinQuadWithFixed>> HeldDeformation::free_solver(const SparseMatrix& q, const Indices& owner_of) {
+  const Index rows_per_vertex = q.rows() / std::ssize(owner_of);
+  Indices free;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(q.rows()); ++row)
+    if (owner_of[row / rows_per_vertex] == no_index) free.push_back(static_cast<std::uint32_t>(row));
+  auto made = MinQuadWithFixed::create(q, std::move(free), {.columns = 2 / rows_per_vertex, .order = {}});
+  if (made && !(*made)->succeeded()) {
+    return Error(HB_ERROR_SYSTEM_SINGULAR,
+                 {"The handles do not determine the shape: some triangles are too thin, or hang on one vertex only."},
+                 {"Improve the mesh, or hold more of it."});
+  }
+  return made;
+}
+
 HeldDeformation::HeldDeformation(Setup setup)
     : Skin(setup.mesh.positions.rows(), 2, setup.handles),
       mesh_(std::move(setup.mesh)),
       owner_of_(std::move(setup.owner_of)),
-      displacements_(2 * vertices_) {}
+      displacements_(Matrix::Zero(vertices_, 2)) {}
 
 void HeldDeformation::move(float* out) {
   const double* const positions = mesh_.positions.data();

@@ -8,7 +8,7 @@
 // All energies are of displacements u − v, in double precision: with identities nothing moves at all.
 #pragma once
 
-#include "core/skinning/free_rows.hpp"
+#include "core/numerics/min_quad_with_fixed.hpp"
 #include "core/skinning/held_vertices.hpp"
 #include "core/skinning/skin.hpp"
 
@@ -41,6 +41,10 @@ class HeldDeformation : public Skin {
    * HANDLES_MISSING, HANDLE_OUT_OF_RANGE or HANDLE_CONFLICT. */
   static Result<Setup> set_up(SimplexMesh mesh, HeldVertices held);
 
+  /** Factors an energy's matrix, of the n vertices or of their 2n coordinates, for the vertices that nothing holds. OUT_OF_MEMORY,
+   * or SYSTEM_SINGULAR where it does not determine them. */
+  static Result<std::unique_ptr<MinQuadWithFixed>> free_solver(const SparseMatrix& q, const Indices& owner_of);
+
   explicit HeldDeformation(Setup setup);
 
   /** Gives the free rows of `displacements_` their values, given those of the held ones. */
@@ -48,7 +52,7 @@ class HeldDeformation : public Skin {
 
   SimplexMesh mesh_;
   Indices owner_of_;
-  std::vector<double> displacements_;  // n×2
+  Matrix displacements_;  // n×2
   DeformationReport report_;
   std::uint32_t most_iterations_ = 1;
 

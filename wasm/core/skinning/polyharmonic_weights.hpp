@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/mesh/mass_matrix.hpp"
-#include "core/numerics/sparse_cholesky.hpp"
+#include "core/numerics/min_quad_with_fixed.hpp"
 #include "core/skinning/held_vertices.hpp"
 
 namespace handlebody {
 
-/** Least ∫|∇w|², ∫(Δw)² or ∫|∇Δw|² for the order 1, 2 or 3: wᵀ Q w with Q = C, C M⁻¹ C, C M⁻¹ C M⁻¹ C. Order 1, harmonic, has
+/** Least ∫|∇w|², ∫(Δw)² or ∫|∇Δw|² for the order 1, 2 or 3: wᵀ Q w with the Q of polyharmonic_energy.hpp. Order 1, harmonic, has
  * spikes at point handles; order 2, biharmonic, is smooth but leaves [0, 1]; order 3 is smoother and leaves it farther. Weights
  * always sum to 1.
  *
@@ -20,7 +20,7 @@ namespace handlebody {
  * sets them. Each is one solve, where not known already; where that adds up to more than a new factorization, there is one. */
 class PolyharmonicWeights {
  public:
-  /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3. */
+  /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3; OUT_OF_MEMORY as polyharmonic_energy(). */
   static Result<std::unique_ptr<PolyharmonicWeights>> create(SimplexMesh mesh, int order, Mass mass);
 
   /** Computes the weights. HANDLE_* as complete(), OUT_OF_MEMORY, or SYSTEM_SINGULAR where triangles are too thin for double
@@ -59,10 +59,9 @@ class PolyharmonicWeights {
   SparseMatrix energy_;
   Vector mass_;
 
-  std::unique_ptr<SparseCholesky> cholesky_;  // of Q_ff
+  std::unique_ptr<MinQuadWithFixed> solver_;
   HeldVertices factored_held_;
-  Indices number_of_;  // of each vertex among the free ones
-  Indices free_;
+  Indices factored_owner_of_;  // of each vertex, or `no_index`
   Matrix factored_weights_;
 
   Matrix weights_;

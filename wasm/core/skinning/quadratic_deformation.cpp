@@ -1,44 +1,37 @@
 #include "core/skinning/quadratic_deformation.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "core/mesh/cotangent_laplacian.hpp"
 #include "core/mesh/mass_matrix.hpp"
-#include "core/skinning/free_rows.hpp"
+#include "core/mesh/polyharmonic_energy.hpp"
 
 namespace handlebody {
 namespace {
 
 /** ½ ∫|∇f|² − area(f) of rows 2v and 2v + 1, the coordinates of vertex v. */
 SparseMatrix conformal_matrix(const SimplexMesh& mesh, const SparseMatrix& laplacian) {
-  const auto n = static_cast<std::uint32_t>(mesh.positions.rows());
-  SparseEntries entries(2 * mesh.positions.rows());
-  for (std::uint32_t v = 0; v < n; ++v)
-    for (std::uint32_t e = laplacian.starts[v]; e < laplacian.starts[v + 1]; ++e)
-      for (std::uint32_t axis = 0; axis < 2; ++axis)
-        entries.put(2 * v + axis, 2 * laplacian.columns[e] + axis, laplacian.values[e]);
+  std::vector<Triplet> entries;
+  entries.reserve(2 * laplacian.nonZeros() + 12 * mesh.simplices.rows());
+  for (Index v = 0; v < laplacian.rows(); ++v)
+    for (SparseMatrix::InnerIterator entry(laplacian, v); entry; ++entry)
+      for (Index axis = 0; axis < 2; ++axis) entries.emplace_back(2 * v + axis, 2 * entry.col() + axis, entry.value());
   for (Index t = 0; t < mesh.simplices.rows(); ++t) {
     const std::uint32_t* const corners = mesh.simplices.data() + 3 * t;
     const double sign = doubled_area(corners, mesh.positions.data()) > 0 ? 0.5 : -0.5;
     for (Index k = 0; k < 3; ++k) {  // area = ½ Σ x y′ − y x′ over the edges: half of it, twice, in a symmetric matrix
       const std::uint32_t from = 2 * corners[k], to = 2 * corners[(k + 1) % 3];
-      entries.put(from, to + 1, -sign);
-      entries.put(to + 1, from, -sign);
-      entries.put(from + 1, to, sign);
-      entries.put(to, from + 1, sign);
+      entries.emplace_back(from, to + 1, -sign);
+      entries.emplace_back(to + 1, from, -sign);
+      entries.emplace_back(from + 1, to, sign);
+      entries.emplace_back(to, from + 1, sign);
     }
   }
-  const SparseMatrix all = entries.matrix();
-  SparseMatrix kept;  // inner edges cancel to the last bit
-  for (Index row = 0; row < all.rows(); ++row) {
-    for (std::uint32_t e = all.starts[row]; e < all.starts[row + 1]; ++e) {
-      if (all.values[e] == 0) continue;
-      kept.columns.push_back(all.columns[e]);
-      kept.values.push_back(all.values[e]);
-    }
-    kept.starts.push_back(static_cast<std::uint32_t>(kept.columns.size()));
-  }
-  return kept;
+  SparseMatrix energy(2 * laplacian.rows(), 2 * laplacian.rows());
+  energy.setFromTriplets(entries.begin(), entries.end());
+  energy.prune([](Index, Index, double value) { return value != 0; });  // inner edges cancel to the last bit
+  return energy;
 }
 
 class QuadraticDeformation final : public HeldDeformation {
@@ -46,30 +39,39 @@ class QuadraticDeformation final : public HeldDeformation {
   static Result<std::unique_ptr<HeldDeformation>> create(SimplexMesh mesh, HeldVertices held, QuadraticEnergy energy) {
     auto setup = set_up(std::move(mesh), std::move(held));
     if (!setup) return setup.error();
-    SparseMatrix matrix = cotangent_laplacian(setup->mesh);
+    SparseMatrix q = cotangent_laplacian(setup->mesh);
     if (energy == QuadraticEnergy::laplacian) {
-      const Vector mass = mass_matrix(setup->mesh, Mass::voronoi);
-      matrix = symmetric_product(matrix, mass.unaryExpr([](double m) { return m > 0 ? 1 / m : 0.0; }), matrix);
+      auto product = polyharmonic_energy(q, mass_matrix(setup->mesh, Mass::voronoi), 2);
+      if (!product) return product.error();
+      q = std::move(*product);
     }
     const bool conformal = energy == QuadraticEnergy::conformal;
-    if (conformal) matrix = conformal_matrix(setup->mesh, matrix);
-    auto rows = FreeRows::create(std::move(matrix), setup->owner_of, conformal ? 2 : 1);
-    if (!rows) return rows.error();
-    return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(*setup), std::move(*rows)));
+    if (conformal) q = conformal_matrix(setup->mesh, q);
+    auto solver = free_solver(q, setup->owner_of);
+    if (!solver) return solver.error();
+    return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(*setup), std::move(q), std::move(*solver)));
   }
 
  private:
-  QuadraticDeformation(Setup setup, std::unique_ptr<FreeRows> rows) : HeldDeformation(std::move(setup)), rows_(std::move(rows)) {}
+  QuadraticDeformation(Setup setup, SparseMatrix q, std::unique_ptr<MinQuadWithFixed> solver)
+      : HeldDeformation(std::move(setup)), q_(std::move(q)), solver_(std::move(solver)), product_(q_.rows()) {}
 
   void minimize() override {
-    for (std::size_t k = 0; k < displacements_.size(); ++k)
-      if (owner_of_[k / 2] == no_index) displacements_[k] = 0;  // nothing of the last frame, not its rounding either
-    rows_->solve(nullptr, displacements_.data());
-    report_.energy = rows_->energy(displacements_.data());
+    const Index columns = displacements_.size() / q_.rows();  // 1 where x and y are unknowns of the same equations
+    solver_->solve(Eigen::Map<Matrix>(displacements_.data(), q_.rows(), columns));
+    report_.energy = 0;
+    for (Index j = 0; j < columns; ++j) {
+      const Eigen::Map<const Vector, 0, Eigen::InnerStride<>> u(displacements_.data() + j, q_.rows(),
+                                                                Eigen::InnerStride<>(columns));
+      product_.noalias() = q_ * u;
+      report_.energy += u.dot(product_) / 2;
+    }
     report_.iterations = 1;
   }
 
-  std::unique_ptr<FreeRows> rows_;
+  SparseMatrix q_;
+  std::unique_ptr<MinQuadWithFixed> solver_;
+  Vector product_;
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+import { ease } from '../../ui/motion.ts';
 import type { Handle } from './experiment.ts';
 
 /** Milliseconds that a pose takes to be struck. */
@@ -18,7 +19,7 @@ export class Ease {
 
   /** The handles on their way to a pose. */
   at(to: readonly Handle[]): readonly Handle[] {
-    const part = 1 - (1 - Math.min((performance.now() - this.#start) / DURATION, 1)) ** 3;
+    const part = ease((performance.now() - this.#start) / DURATION);
     const between = (a: number, b: number) => a + (b - a) * part;
     return to.map((handle, i) => {
       const from = this.#from[i] ?? handle;

@@ -3,6 +3,7 @@ import type { Handlebody } from '../../../wasm/ts/index.ts';
 import { countFlips, meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
 import { readable } from '../../ui/dom.ts';
+import { reducedMotion } from '../../ui/motion.ts';
 import { fromAddress, toAddress } from './address.ts';
 import { Deformer } from './deformer.ts';
 import { Ease } from './ease.ts';
@@ -313,8 +314,7 @@ export class Lesson {
   }
 
   #easeFrom(from: Handle[]): void {
-    const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
-    this.#ease = still ? undefined : new Ease(from);
+    this.#ease = reducedMotion() ? undefined : new Ease(from);
   }
 
   #change(): void {

@@ -1,0 +1,192 @@
+#include "core/irbf/local_global.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace handlebody;
+
+namespace {
+
+/** Spheres in a row, a mapping that is affine and a few random functions, and its value held at some points: a small IRBF without
+ *  a body. */
+struct SmallSystem {
+  static constexpr Index spheres = 5, edges_count = 3 * spheres, functions = 6, constraints = 4;
+  static constexpr double smoothness = 0.02, mu = 10;
+  Points edges{edges_count, 3};
+  Vector edge_scale{edges_count};
+  MatrixXd hat;
+  MatrixXd points{constraints, 3};
+
+  explicit SmallSystem(unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const auto number = [&] { return normal(random); };
+    for (Index row = 0; row < edges_count; ++row) {
+      const double length = 0.3 - 0.02 * static_cast<double>(row / 3), root = std::sqrt(length);
+      edges.row(row) = root * length * Eigen::RowVector3d::Unit(row % 3);
+      edge_scale[row] = 1 / root;
+    }
+    points = MatrixXd::NullaryExpr(constraints, 3, number);
+    MatrixXd rows = MatrixXd::Zero(edges_count + constraints, 4 + functions);
+    rows.topLeftCorner(edges_count, 3) = edges;
+    rows.topRightCorner(edges_count, functions) = 0.05 * MatrixXd::NullaryExpr(edges_count, functions, number);
+    rows.bottomLeftCorner(constraints, 3) = mu * points;
+    rows.block(edges_count, 3, constraints, 1).setConstant(mu);
+    rows.bottomRightCorner(constraints, functions) = mu * MatrixXd::NullaryExpr(constraints, functions, number);
+    MatrixXd gram = rows.transpose() * rows;
+    gram.diagonal().tail(functions).array() += smoothness;
+    hat = rows * gram.inverse() * rows.transpose();
+  }
+
+  /** The iterations, with the constraint points to be displaced so. */
+  LocalGlobal iterations(const MatrixXd& displacements) const {
+    LocalGlobal made(edges, edge_scale);
+    made.set_system(hat);
+    made.constraints() = mu * displacements;
+    return made;
+  }
+
+  MatrixXd random_displacements(unsigned seed) const {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    return 0.6 * MatrixXd::NullaryExpr(constraints, 3, [&] { return normal(random); });
+  }
+};
+
+LocalGlobalReport run_from_rest(LocalGlobal& iterations, const LocalGlobalOptions& options) {
+  iterations.start(iterations.energy(iterations.rotations()));
+  return iterations.run(options);
+}
+
+Matrix3 nearest_rotation_by_svd(const Matrix3& m) {
+  const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3 u = svd.matrixU();
+  if (u.determinant() * svd.matrixV().determinant() < 0) u.col(2) *= -1;
+  return u * svd.matrixV().transpose();
+}
+
+}  // namespace
+
+TEST_CASE("the energy is rhsᵀ(I − hat) rhs, its right-hand side √w (R − I) e over the constraints (seed 161)") {
+  const SmallSystem system(161);
+  const MatrixXd displacements = system.random_displacements(1);
+  LocalGlobal iterations = system.iterations(displacements);
+  std::vector<Matrix3> rotations;
+  for (int b = 0; b < 5; ++b) rotations.push_back(Eigen::AngleAxisd(0.3 * b, Vector3(1, b, 2).normalized()).toRotationMatrix());
+  MatrixXd right(19, 3);
+  for (Index row = 0; row < 15; ++row)
+    right.row(row) = system.edges.row(row) * (rotations[row / 3] - Matrix3::Identity()).transpose();
+  right.bottomRows(4) = SmallSystem::mu * displacements;
+  const double expected = (right.transpose() * (right - system.hat * right)).trace();
+  CHECK(iterations.energy(rotations) == doctest::Approx(expected).epsilon(1e-11));
+  CHECK((iterations.right_hand_side() - right).cwiseAbs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("handles moved as one body turn every sphere alike, at no energy (seed 162)") {
+  const SmallSystem system(162);
+  const Matrix3 turn = Eigen::AngleAxisd(1.2, Vector3(1, -1, 3).normalized()).toRotationMatrix();
+  const MatrixXd displacements =
+      (system.points * (turn - Matrix3::Identity()).transpose()).rowwise() + Eigen::RowVector3d(0.3, 0.1, -2);
+  LocalGlobal iterations = system.iterations(displacements);
+  LocalGlobalOptions options;
+  options.max_iterations = 500;
+  options.tolerance = 1e-10;
+  const LocalGlobalReport report = run_from_rest(iterations, options);
+  CHECK(report.converged);
+  CHECK(report.energy < 1e-15);
+  for (const Matrix3& rotation : iterations.rotations()) CHECK((rotation - turn).norm() < 1e-7);
+}
+
+TEST_CASE(
+    "at the end every sphere has the rotation that is nearest to its edges' image, and no turn lowers the energy (seeds 163 to "
+    "165)") {
+  for (unsigned seed = 163; seed <= 165; ++seed) {
+    CAPTURE(seed);
+    const SmallSystem system(seed);
+    LocalGlobal iterations = system.iterations(system.random_displacements(seed));
+    LocalGlobalOptions options;
+    options.max_iterations = 3000;
+    options.tolerance = 1e-11;
+    const LocalGlobalReport report = run_from_rest(iterations, options);
+    REQUIRE(report.converged);
+    CHECK(report.change < 1e-11);
+    const std::vector<Matrix3> found = iterations.rotations();
+    const MatrixXd image = system.hat * iterations.right_hand_side();
+    for (Index b = 0; b < 5; ++b) {
+      const auto edges = system.edges.middleRows(3 * b, 3);
+      const Matrix3 moved = edges + image.middleRows(3 * b, 3);
+      CHECK((found[b] - nearest_rotation_by_svd(moved.transpose() * edges)).norm() < 1e-5);
+    }
+    CHECK(iterations.energy(found) == doctest::Approx(report.energy).epsilon(1e-10));
+    for (std::size_t b = 0; b < 5; ++b)
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double angle : {-1e-3, 1e-3}) {
+          std::vector<Matrix3> other = found;
+          other[b] = found[b] * Eigen::AngleAxisd(angle, Vector3::Unit(axis)).toRotationMatrix();
+          CHECK(iterations.energy(other) >= report.energy * (1 - 1e-9));
+        }
+  }
+}
+
+TEST_CASE("accelerated iterations and plain ones find one minimum, and neither ever raises the energy (seeds 166 to 168)") {
+  for (unsigned seed = 166; seed <= 168; ++seed) {
+    CAPTURE(seed);
+    const SmallSystem system(seed);
+    double least[2];
+    int needed[2];
+    for (const bool accelerate : {false, true}) {
+      LocalGlobal iterations = system.iterations(0.5 * system.random_displacements(seed));
+      LocalGlobalOptions options;
+      options.max_iterations = 1;
+      options.tolerance = 1e-9;
+      options.accelerate = accelerate;
+      double last = iterations.energy(iterations.rotations());
+      iterations.start(last);
+      int count = 0;
+      for (bool done = false; !done && count < 20000; ++count) {
+        const LocalGlobalReport report = iterations.run(options);
+        CHECK(report.iterations == 1);
+        CHECK(report.energy <= last * (1 + 1e-11));
+        last = report.energy;
+        done = report.converged;
+      }
+      least[accelerate] = last, needed[accelerate] = count;
+    }
+    CHECK(least[1] == doctest::Approx(least[0]).epsilon(1e-6));
+    CHECK(needed[1] < needed[0]);
+  }
+}
+
+TEST_CASE("cut up, the iterations are the same to the last bit (seed 169)") {
+  const SmallSystem system(169);
+  LocalGlobal whole = system.iterations(system.random_displacements(3)), parts = system.iterations(system.random_displacements(3));
+  LocalGlobalOptions options;
+  options.tolerance = 0;
+  options.max_iterations = 12;
+  const LocalGlobalReport report = run_from_rest(whole, options);
+  CHECK(report.iterations == 12);
+  CHECK_FALSE(report.converged);
+  options.max_iterations = 4;
+  LocalGlobalReport last = run_from_rest(parts, options);
+  for (int k = 0; k < 2; ++k) last = parts.run(options);
+  CHECK(last.energy == report.energy);
+  for (std::size_t b = 0; b < 5; ++b) CHECK(parts.rotations()[b] == whole.rotations()[b]);
+}
+
+TEST_CASE("at rest there is nothing to do") {
+  const SmallSystem system(170);
+  LocalGlobal iterations = system.iterations(MatrixXd::Zero(4, 3));
+  const LocalGlobalReport report = run_from_rest(iterations, {});
+  CHECK(report.converged);
+  CHECK(report.iterations == 1);
+  CHECK(report.energy == doctest::Approx(0));
+  CHECK(report.change < 1e-14);
+  for (const Matrix3& rotation : iterations.rotations()) CHECK((rotation - Matrix3::Identity()).norm() < 1e-14);
+}

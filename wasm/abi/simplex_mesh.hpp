@@ -1,0 +1,14 @@
+// Meshes and held vertices as handlebody.h has them, for the files that implement its sections on skinning.
+#pragma once
+
+#include "abi/support.hpp"
+#include "core/skinning/held_vertices.hpp"
+
+namespace handlebody {
+
+/** A copy of the mesh. INVALID_SHAPE for simplices that the header does not name. */
+Result<SimplexMesh> read_mesh(const hb_simplex_mesh& mesh);
+
+HeldVertices read_held(const hb_held_vertices& held);
+
+}  // namespace handlebody
