@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -34,6 +36,8 @@ TEST_CASE("graded QR: the shortest solution of A'x = b, in one block or several 
     Vector along = a.transpose() * x;
     MatrixXd inverse = gram.inverse();
     CHECK((a * (inverse * along) - x).norm() < 1e-10);
+    const Vector eigen = MatrixXd(a.transpose()).completeOrthogonalDecomposition().solve(Vector(b.transpose()));
+    CHECK((eigen - x).norm() < 1e-12 * std::max(1.0, x.norm()));
   }
 }
 

@@ -9,7 +9,8 @@
 // From one place to another only the right-hand side changes, so that any empty simplex is a start for the dual simplex method.
 // Each pivot crosses the facet beyond which x lies, to the simplex on its other side: a walk. It starts from a simplex at the
 // nearest point, itself found, at the first question for it, by a walk from one fixed simplex; so an answer depends on x alone and
-// not on what was asked before. A walk takes a few pivots of O(nd + d²).
+// not on what was asked before. A walk takes a few pivots of O(nd + d²). The inverse of the basis is kept, and changed by each
+// pivot, as the simplex method does and Eigen's factorizations do not.
 #pragma once
 
 #include <cstdint>

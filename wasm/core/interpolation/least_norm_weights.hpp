@@ -7,6 +7,9 @@
 // Idnani (Mathematical Programming 27, 1983) starts without w ≥ 0 and lets go, one at a time, of the points that would be negative,
 // taking back those that have become welcome again. The points kept always span the space. Every round raises the optimum, so none
 // comes twice, and there is an end.
+//
+// The affine functions are kept orthonormal over the points kept while these come and go, by an update of rank one each, which
+// Eigen's factorizations do not have for rows.
 #pragma once
 
 #include <cstdint>

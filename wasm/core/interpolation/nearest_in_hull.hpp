@@ -5,6 +5,9 @@
 // their own convex combination z. While some point lies in front of the plane through z across x − z, that is
 // (x − z)·(pᵢ − z) > 0, it joins; points whose weights would turn negative leave. Every corral is nearer than the one before, so
 // none comes twice and there is an end, after a few times d steps as a rule. A step takes O(nd + d³).
+//
+// The corral's edges are factored by Gram and Schmidt, an edge at a time as it joins, in scratch space of the object's own: Eigen's
+// factorizations begin anew with every change.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // QR factorization of a tall matrix whose rows differ by many orders of magnitude, as those of weighted least squares do near a
 // singular weight: Householder's method with row and column pivoting, which leaves every row an error in proportion to its own size
 // (Powell and Reid 1969; Cox and Higham 1998). Columns are factored in blocks, so that a block that turns out dependent on the
-// former ones can be left out. Made once and filled again and again without allocating.
+// former ones can be left out. Made once and filled again and again without allocating. Eigen's QR with column pivoting exchanges
+// no rows, so that a large row that comes late spoils the small ones above it, and factors all columns or none.
 #pragma once
 
 #include "core/numerics/indices.hpp"
