@@ -203,13 +203,15 @@ void DiscreteGreen::solve_grid(double* f) const {
 
 void DiscreteGreen::solve_radial(double* f, double* weights) const {
   const Index count = values_.size(), columns = null_space_.cols();
-  const MatrixXd green = green_(Eigen::all, samples_), polynomials = null_space_(samples_, Eigen::all);
   // λ in units of 1/G and N of order 1, so that pivots compare.
   const double largest = std::max(green_.diagonal().maxCoeff(), 0.0), scale = std::sqrt(static_cast<double>(size()));
-  MatrixXd system = MatrixXd::Zero(count + columns, count + columns);
-  system.topLeftCorner(count, count) = green(samples_, Eigen::all) / largest;
-  system.topRightCorner(count, columns) = scale * polynomials;
-  system.bottomLeftCorner(columns, count) = scale * polynomials.transpose();
+  MatrixXd green(size(), count), system = MatrixXd::Zero(count + columns, count + columns);
+  for (Index k = 0; k < count; ++k) {
+    const Index place = samples_[k];
+    green.col(k) = green_.row(place).transpose();  // G is symmetric
+    for (Index l = 0; l < count; ++l) system(l, k) = green(samples_[l], k) / largest;
+    for (Index a = 0; a < columns; ++a) system(k, count + a) = system(count + a, k) = scale * null_space_(place, a);
+  }
   Vector solution = Vector::Zero(count + columns);
   solution.head(count) = values_;
   solution = Lu(std::move(system)).solve(solution);
