@@ -69,7 +69,7 @@ TEST_CASE(
     if (line.find("\"size\"") == std::string::npos) continue;
     const auto number = [&](const char* key) { return numbers(line, key).at(0); };
     const auto size = static_cast<Index>(number("size"));
-    const auto boundary = boundaries[number("boundary")];
+    const auto boundary = boundaries[static_cast<std::size_t>(number("boundary"))];
     const auto green =
         make(size, static_cast<int>(number("order")), boundary, whole(numbers(line, "samples")), numbers(line, "values"));
     CAPTURE(line.substr(0, 60));

@@ -1,17 +1,19 @@
-// Against Eigen's decompositions with full pivoting of the whole equations, which this file writes down by itself.
+// Against Eigen's LU with full pivoting of the whole equations, which this file writes down by itself. Products are called, not
+// spelled: each kind of expression of Eigen's takes seconds to compile.
 #include "core/interpolation/linear_fit.hpp"
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
 
+#include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
 #include "scattered.hpp"
 
 using namespace handlebody;
@@ -72,8 +74,21 @@ double largest(const MatrixXd& a) {
 
 /** What is left of K X − B, in units of rounding errors of a solution that is as good as doubles allow. */
 double backward_error(const MatrixXd& k, const MatrixXd& x, const MatrixXd& b) {
-  const double size = k.cwiseAbs().rowwise().sum().maxCoeff() * largest(x) + largest(b);
-  return largest(k * x - b) / size / std::numeric_limits<double>::epsilon();
+  const double size = one_norm(k.transpose()) * largest(x) + largest(b);
+  return largest(product(k, x) - b) / size / std::numeric_limits<double>::epsilon();
+}
+
+MatrixXd inverse_of(const MatrixXd& a) {
+  return a.fullPivLu().inverse();
+}
+
+/** The orthogonal projector on what is perpendicular to P's columns. */
+MatrixXd projector_off(const MatrixXd& p) {
+  MatrixXd projector = MatrixXd::Identity(p.rows(), p.rows());
+  if (p.cols() == 0) return projector;
+  const MatrixXd basis = column_span(p).basis;
+  projector -= product(basis, basis.transpose());
+  return projector;
 }
 
 Matrix random_values(std::mt19937& random, Index n) {
@@ -101,16 +116,15 @@ TEST_CASE("interpolation solves the block equations: every kernel, tail and dime
         CHECK(backward_error(k, x, b) < 50);
         CHECK(backward_error(k, one, b.leftCols(1)) < 50);
 
-        const MatrixXd inverse = k.fullPivLu().inverse();
-        const double norm = k.cwiseAbs().colwise().sum().maxCoeff(),
-                     condition = norm * inverse.cwiseAbs().colwise().sum().maxCoeff();
+        const MatrixXd inverse = inverse_of(k);
+        const double norm = one_norm(k), condition = norm * one_norm(inverse);
         CHECK(fit->norm() == doctest::Approx(norm).epsilon(1e-12));
         if (condition > 1e8) continue;  // the inverse itself is vague then
         ++compared;
         CHECK(fit->condition() <= 1.0001 * condition);
         CHECK(fit->condition() >= condition / 100);
         near += fit->condition() >= condition / 3;
-        CHECK(largest(x - inverse * b) < 1e-14 * condition * largest(x));
+        CHECK(largest(x - product(inverse, b)) < 1e-14 * condition * largest(x));
       }
     }
   }
@@ -130,10 +144,9 @@ TEST_CASE("nearly singular equations, which Cholesky refuses, are solved all the
       RadialBasis basis = basis_of(points, points, options);
       const MatrixXd k = saddle(basis, points, 0);
       const Index n = points.rows(), tail = basis.tail();
-      MatrixXd free = MatrixXd::Identity(n, n);
-      if (tail > 0) free = MatrixXd(k.topRightCorner(n, tail).householderQr().householderQ()).rightCols(n - tail);
-      const MatrixXd projected = basis.kernel().sign() * free.transpose() * k.topLeftCorner(n, n) * free;
-      REQUIRE(projected.llt().info() != Eigen::Success);
+      MatrixXd projected = basis.kernel().sign() * k.topLeftCorner(n, n);
+      Qr(k.topRightCorner(n, tail)).conjugate(projected);
+      REQUIRE(!Cholesky(projected.bottomRightCorner(n - tail, n - tail)).succeeded());
       const auto fit = fit_interpolant(basis, points, 0);
       const MatrixXd x = fit->coefficients(values).transpose();
       REQUIRE(x.allFinite());
@@ -194,7 +207,7 @@ TEST_CASE("one point, and as many points as the tail has polynomials, leave noth
   const MatrixXd x = fit->coefficients(values);
   CHECK(largest(x.leftCols(3)) < 1e-14);
   const MatrixXd at = functions_at(plane, points);
-  CHECK(largest(at * x.transpose() - values) < 1e-14);
+  CHECK(largest(product(at, x.transpose()) - values) < 1e-14);
   options.degree = 0;
   options.kernel = {KernelKind::linear, 1};
   RadialBasis one = basis_of(points.topRows(1), points.topRows(1), options);
@@ -247,17 +260,16 @@ TEST_CASE(
           const auto fit = fit_least_squares(basis, points, centers, decay, weighted ? some_weights : Vector());
           const MatrixXd x = fit->coefficients(values).transpose();
           const MatrixXd p = functions_at(basis, centers).rightCols(basis.tail()), c = x.topRows(count);
-          CHECK(largest(p.transpose() * c) < 1e-11 * std::max(1.0, largest(c)));
+          CHECK(largest(transposed_product(p, c)) < 1e-11 * std::max(1.0, largest(c)));
           const MatrixXd all = functions_at(basis, points);
-          MatrixXd gradient = all.transpose() * weights.asDiagonal() * (all * x - values);
+          MatrixXd misfits = product(all, x) - values;
+          misfits.array().colwise() *= weights.array();
+          MatrixXd gradient = transposed_product(all, misfits);
           gradient.topRows(count) += decay * c;  // the amplitude of scale is 1 here
-          const MatrixXd free = p.transpose().fullPivLu().kernel();
           const double size = largest(all) * largest(all) * largest(x) * 150;
           CHECK(largest(gradient.bottomRows(basis.tail())) < 1e-13 * size);
-          if (p.transpose().fullPivLu().rank() < count)
-            CHECK(largest(free.transpose() * gradient.topRows(count)) < 1e-12 * size);
-          else
-            CHECK(largest(c) < 1e-12);
+          CHECK(largest(product(projector_off(p), gradient.topRows(count))) < 1e-12 * size);
+          if (count <= basis.tail()) CHECK(largest(c) < 1e-12);
         }
       }
     }
@@ -277,18 +289,12 @@ TEST_CASE("the design's condition number and Gram matrix are those of R, project
     const MatrixXd design = design_matrix(basis, points, centers), all = functions_at(basis, points), r = all.leftCols(15);
     REQUIRE(design.rows() == 90);
     REQUIRE(design.cols() == 15);  // one less for each polynomial, and the polynomials
-    MatrixXd projector = MatrixXd::Identity(15, 15);
-    if (tail > 0) {
-      const MatrixXd p = functions_at(basis, centers).rightCols(tail),
-                     q = p.householderQr().householderQ() * MatrixXd::Identity(15, tail);
-      projector -= q * q.transpose();
-    }
-    const MatrixXd expected = r * projector * r.transpose() + all.rightCols(tail) * all.rightCols(tail).transpose();
-    CHECK(largest(design * design.transpose() - expected) < 1e-12 * largest(expected));
+    const MatrixXd projector = projector_off(functions_at(basis, centers).rightCols(tail)), p = all.rightCols(tail);
+    const MatrixXd expected = product(product(r, projector), r.transpose()) + product(p, p.transpose());
+    CHECK(largest(product(design, design.transpose()) - expected) < 1e-12 * largest(expected));
 
-    const MatrixXd upper = design.householderQr().matrixQR().topRows(15).triangularView<Eigen::Upper>();
-    const double norm = upper.cwiseAbs().colwise().sum().maxCoeff();
-    const double condition = norm * upper.inverse().cwiseAbs().colwise().sum().maxCoeff();
+    const MatrixXd upper = Qr(design).r();
+    const double norm = one_norm(upper), condition = norm * one_norm(inverse_of(upper));
     const auto fit = fit_least_squares(basis, points, centers, 0, {});
     CHECK(fit->norm() == doctest::Approx(norm));
     CHECK(fit->condition() <= 1.0001 * condition);

@@ -14,7 +14,8 @@ class LinearFit {
   /** Coefficients (m×size(), one row an output) for `values` (n×m). O(n² m). */
   virtual MatrixXd coefficients(const Matrix& values) const = 0;
 
-  /** 1-norm of the factored matrix, and an estimate of its 1-norm condition number (at most a factor of a few too small). */
+  /** 1-norm of the equations' matrix, and an estimate of its 1-norm condition number: never above it, and rarely below a third of
+   * it. Infinite where the matrix is singular. */
   double norm() const { return norm_; }
   double condition() const { return condition_; }
 
@@ -28,8 +29,12 @@ class LinearFit {
  *     [   Pᵀ    0 ] [d] = [0]
  *
  *  with a center at each of the `points`. The polynomial part is not penalized, so that polynomials are kept whatever λ: a smoothed
- * thin plate becomes affine (Donato & Belongie 2002). λ takes the sign of the kernel, as if each were positive definite. R is
- * indefinite in general, so LU and not Cholesky. */
+ * thin plate becomes affine (Donato & Belongie 2002). λ takes the sign of the kernel, as if each were positive definite.
+ *
+ *  Where a theorem says that the kernel is definite on what the side conditions leave (kernel.hpp), they are eliminated by
+ * Householder reflections and Cholesky does the rest, with half of the kernels and half of LU's work. Where it is not known to be,
+ * as with unequal widths and normalized kernels, whose R is not symmetric, or where Cholesky finds it not to be in double
+ * precision, the whole matrix is factored by LU. */
 std::unique_ptr<LinearFit> fit_interpolant(RadialBasis& basis, const Matrix& points, double smoothing);
 
 /** Least squares with as many centers as there are, or fewer, each point's misfit counting `row_weights` (n, or empty for 1), and

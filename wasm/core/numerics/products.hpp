@@ -8,7 +8,7 @@ namespace handlebody {
 using ConstMatrixRef = Eigen::Ref<const MatrixXd>;
 using ConstVectorRef = Eigen::Ref<const Vector>;
 
-/** A B (m×n) and Aᵀ B (k×n), for A m×k (or m×k transposed: m×k with B m×n) and B. */
+/** A B (m×n) for A m×k and B k×n; Aᵀ B (k×n) for A m×k and B m×n. */
 MatrixXd product(const ConstMatrixRef& a, const ConstMatrixRef& b);
 MatrixXd transposed_product(const ConstMatrixRef& a, const ConstMatrixRef& b);
 
