@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/numerics/decompositions.hpp"
-#include "core/numerics/products.hpp"
 #include "core/numerics/indices.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 namespace {
