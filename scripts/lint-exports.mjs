@@ -47,7 +47,9 @@ export function lintExports(files, entries) {
 
 /** Sources behind the modules that package.json exports. @param {{ exports: Record<string, string | { default: string }> }} manifest */
 export function publicEntries({ exports }) {
-  return Object.values(exports).map((target) => toSource(path.posix.normalize(typeof target === 'string' ? target : target.default)));
+  return Object.values(exports).map((target) =>
+    toSource(path.posix.normalize(typeof target === 'string' ? target : target.default)),
+  );
 }
 
 /** What tsc wrote stands for what it was made of. @param {string} file */
