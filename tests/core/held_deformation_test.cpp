@@ -33,6 +33,11 @@ Result<std::unique_ptr<HeldDeformation>> harmonic(const SimplexMesh& mesh, const
   return quadratic_deformation(mesh, held, QuadraticEnergy::dirichlet);
 }
 
+/** Opens what deformations are made with; never made itself. */
+struct OpenedDeformation : HeldDeformation {
+  using HeldDeformation::free_solver;
+};
+
 Matrix moved_by(double x, double y) {
   return test::affine(MatrixXd::Identity(2, 2), Eigen::Vector2d(x, y));
 }
@@ -138,4 +143,17 @@ TEST_CASE("meshes that are not of triangles in the plane are refused, and others
   CHECK(code_of_mesh(beyond, corner) == HB_ERROR_MESH_INDEX_OUT_OF_RANGE);
   CHECK(code_of_mesh(strip_mesh(2), {{}, {}, 0}) == HB_ERROR_HANDLES_MISSING);
   CHECK(code_of_mesh(strip_mesh(2), {{0, 0}, {0, 1}, 2}) == HB_ERROR_HANDLE_CONFLICT);
+}
+
+TEST_CASE("equations that do not determine the free vertices are refused") {
+  const Indices owners{0, no_index, no_index};
+  SparseMatrix q(3, 3);
+  q.setIdentity();
+  CHECK(OpenedDeformation::free_solver(q, owners));
+  q.coeffRef(0, 0) = 0;  // the held one's
+  CHECK(OpenedDeformation::free_solver(q, owners));
+  q.coeffRef(2, 2) = 0;
+  const auto made = OpenedDeformation::free_solver(q, owners);
+  REQUIRE_FALSE(made);
+  CHECK(made.error().code == HB_ERROR_SYSTEM_SINGULAR);
 }

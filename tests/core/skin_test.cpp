@@ -90,7 +90,7 @@ TEST_CASE("shapes that cannot be blended are named, with the vertex that is to b
   CHECK(check_shape(shape(), 0x1p28));
   check_shape_refused(shape(), 0x1p28 + 64, HB_ERROR_OUT_OF_MEMORY);
   check_shape_refused(shape(), std::numeric_limits<double>::quiet_NaN(), HB_ERROR_OUT_OF_MEMORY);
-  for (const Index d : {1, 4}) {
+  for (const Index d : {0, 1, 4}) {
     WeightedShape wrong = shape();
     wrong.dimension = d;
     check_shape_refused(wrong, 1, HB_ERROR_INVALID_SHAPE);
