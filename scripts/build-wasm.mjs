@@ -15,6 +15,7 @@ import {
 } from 'node:fs';
 import path from 'node:path';
 import { aptInstall, packageVersion } from './lib/apt.mjs';
+import { cmakeBuild } from './lib/cmake.mjs';
 import { at, root } from './lib/paths.mjs';
 import { capture, mustRun, runMain, which } from './lib/run.mjs';
 import { EIGEN, ensureEigen } from './toolchain.mjs';
@@ -79,7 +80,7 @@ async function compile(folder) {
     ...(which('ninja') ? ['-G', 'Ninja'] : []),
   ];
   await mustRun('emcmake', configure, { env, stdio: ['ignore', 'ignore', 'inherit'] });
-  await mustRun('cmake', ['--build', folder, '--parallel'], { env });
+  if ((await cmakeBuild(folder, { env })) !== 0) throw new Error('The solver does not compile to wasm.');
   const built = path.join(folder, 'handlebody.wasm');
   const leak = readFileSync(built).includes(root) ? ' It contains the path of this folder.' : '';
   if (leak) throw new Error(`The wasm must come out equal in every folder.${leak}`);

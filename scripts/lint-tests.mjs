@@ -4,13 +4,13 @@ import { runMain } from './lib/run.mjs';
 import { sourceFiles } from './lib/sources.mjs';
 
 /** Headers without a test of their own, each with the reason. @type {Record<string, string>} */
-export const UNTESTED = {
+const UNTESTED = {
   'wasm/core/irbf/bake_warning.hpp': 'a struct of data alone',
   'wasm/core/numerics/types.hpp': 'names of types alone',
 };
 
 /** Tests of more than one header, each with what they test. @type {Record<string, string>} */
-export const OF_MORE = {
+const OF_MORE = {
   'tests/core/irbf_solver_test.cpp': "IRBF from the bake to the frame, on the paper's bar",
 };
 

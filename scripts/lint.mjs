@@ -1,13 +1,13 @@
 // `npm run lint`: formatting, linting, types and layering of everything that is ours. With --fix it formats first. Checks that need a
 // tool of the C++ side are reported as not run where it is missing, and fail under REQUIRE_NATIVE=1.
 import { readFileSync } from 'node:fs';
-import { availableParallelism } from 'node:os';
+import { buildJobs } from './lib/cmake.mjs';
 import { isCpp } from './lib/imports.mjs';
 import { ensureInstalled } from './lib/install.mjs';
-import { configureNative, NATIVE_BUILD } from './lib/native.mjs';
+import { configureNative, TIDY_BUILD } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
 import { run, runMain, which } from './lib/run.mjs';
-import { sourceFiles } from './lib/sources.mjs';
+import { isLeftOver, sourceFiles } from './lib/sources.mjs';
 import { findMachinePaths } from './lib/words.mjs';
 
 const fix = process.argv.includes('--fix');
@@ -25,10 +25,19 @@ const CHECKS = [
   ['types', async () => (await node(at('scripts', 'build.mjs'), 'library')) || node(tool('typescript', 'bin', 'tsc'), '--noEmit')],
   ['layers', () => node(at('scripts', 'lint-layers.mjs'))],
   ['tests', () => node(at('scripts', 'lint-tests.mjs'))],
+  ['exports', () => node(at('scripts', 'lint-exports.mjs'))],
+  ['left-overs', lintLeftOvers],
   ['words', lintWords],
   ['clang-format', clangFormat],
   ['clang-tidy', clangTidy],
 ];
+
+/** What a merge or a patch leaves behind is nobody's source. */
+async function lintLeftOvers() {
+  const found = sources.filter(isLeftOver);
+  for (const file of found) console.error(`${file}: left over from a merge or a patch, delete it`);
+  return found.length === 0 ? 0 : 1;
+}
 
 async function lintWords() {
   const found = sources
@@ -48,7 +57,7 @@ async function clangFormat() {
 /** Every source of the solver, a few at a time; only what was found is shown. */
 async function clangTidy() {
   if (!which('clang-tidy')) return 'clang-tidy is missing';
-  const problem = await configureNative();
+  const problem = await configureNative(TIDY_BUILD, ['-DHANDLEBODY_PRECOMPILE=OFF']);
   if (problem) return problem;
   const queue = cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file));
   let failures = 0;
@@ -58,7 +67,7 @@ async function clangTidy() {
       const collect = (/** @type {string} */ text) => {
         output += text;
       };
-      const status = await run('clang-tidy', ['--quiet', '-p', NATIVE_BUILD, file], {
+      const status = await run('clang-tidy', ['--quiet', '-p', TIDY_BUILD, file], {
         stdio: ['ignore', 'pipe', 'ignore'],
         onOutput: collect,
       });
@@ -67,7 +76,7 @@ async function clangTidy() {
       console.error(`${file}\n${output.trim()}`);
     }
   };
-  await Promise.all(Array.from({ length: Math.min(4, availableParallelism()) }, worker));
+  await Promise.all(Array.from({ length: buildJobs() }, worker));
   return failures === 0 ? 0 : 1;
 }
 

@@ -44,7 +44,7 @@ export function ensureEigen() {
 }
 
 /** @returns {Promise<Problem>} */
-export async function ensureDoctest() {
+async function ensureDoctest() {
   const present = () =>
     ['/usr/include', '/usr/local/include', '/opt/homebrew/include'].some((p) => existsSync(path.join(p, 'doctest', 'doctest.h')));
   if (present() || (await aptInstall(['doctest-dev']))) return undefined;

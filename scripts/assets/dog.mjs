@@ -12,7 +12,7 @@ const TEXTURE = 'dm_control/suite/dog_assets/skin_texture.png';
  * @param {Uint8Array} bytes
  * @returns {{ positions: Float32Array, uvs: Float32Array | null, triangles: Uint32Array }}
  */
-export function parseSkn(bytes) {
+function parseSkn(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const vertices = view.getInt32(0, true);
   const uvCount = view.getInt32(4, true);

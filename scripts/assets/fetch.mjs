@@ -60,7 +60,7 @@ export class AssetFetchError extends Error {
 }
 
 /** @param {string | Uint8Array} bytes */
-export function sha256(bytes) {
+function sha256(bytes) {
   return createHash('sha256').update(bytes).digest('hex');
 }
 
@@ -88,7 +88,7 @@ function python(args) {
  * @returns {string} The archive's path.
  * @throws {AssetFetchError}
  */
-export function fetchPackage(source) {
+function fetchPackage(source) {
   mkdirSync(CACHE, { recursive: true });
   const archive = join(CACHE, source.file);
   const requirement = `${source.name}==${source.version}`;

@@ -10,7 +10,7 @@ const PLY = 'potpourri3d-1.4.0/deps/geometry-central/test/assets/spot.ply';
  * @param {Uint8Array} bytes
  * @returns {{ positions: Float32Array, triangles: Uint32Array }}
  */
-export function parsePly(bytes) {
+function parsePly(bytes) {
   const end = 'end_header\n';
   const text = Buffer.from(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 4096)).toString('latin1');
   const header = text.slice(0, text.indexOf(end)).replaceAll('\r', '');

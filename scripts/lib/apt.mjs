@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs';
 import { capture, run, which } from './run.mjs';
 
 /** Whether packages can be installed without asking anyone. */
-export function canInstall() {
+function canInstall() {
   return process.getuid?.() === 0 && existsSync('/etc/debian_version') && which('apt-get') !== undefined;
 }
 

@@ -14,7 +14,7 @@ export function nodeProblem(version) {
 }
 
 /** Whether node_modules is missing or older than the lock file. @param {(...parts: string[]) => string} [where] */
-export function installIsStale(where = at) {
+function installIsStale(where = at) {
   const [lock, installed] = [where('package-lock.json'), where('node_modules', '.package-lock.json')];
   if (!existsSync(installed)) return true;
   return existsSync(lock) && statSync(installed).mtimeMs < statSync(lock).mtimeMs;

@@ -1,23 +1,31 @@
 // The native C++ build: the fast way to test and to lint the solver.
 import path from 'node:path';
 import { ensureNative } from '../toolchain.mjs';
+import { cmakeBuild } from './cmake.mjs';
 import { at } from './paths.mjs';
 import { run, which } from './run.mjs';
 
-export const NATIVE_BUILD = at('build', 'native');
+const NATIVE_BUILD = at('build', 'native');
 
 /** @typedef {{ passed: number, failed: number }} Counts */
 /** @typedef {{ counts: Counts } | { notRun: string }} SuiteResult */
 
-/** Configures build/native, which also writes compile_commands.json. @returns {Promise<string | undefined>} why it could not be done */
-export async function configureNative() {
+/** What clang-tidy reads: how each source is compiled, without g++'s precompiled headers. Nothing is built there. */
+export const TIDY_BUILD = at('build', 'tidy');
+
+/**
+ * Configures a native build, which also writes compile_commands.json.
+ * @param {string} [folder] @param {string[]} [settings]
+ * @returns {Promise<string | undefined>} why it could not be done
+ */
+export async function configureNative(folder = NATIVE_BUILD, settings = []) {
   const problem = await ensureNative();
   if (problem) return problem;
   const generator = which('ninja') ? ['-G', 'Ninja'] : [];
-  const status = await run('cmake', ['-S', at('wasm'), '-B', NATIVE_BUILD, '-DCMAKE_BUILD_TYPE=Release', ...generator], {
+  const status = await run('cmake', ['-S', at('wasm'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...generator, ...settings], {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
-  if (status !== 0) throw new Error('cmake could not configure build/native.');
+  if (status !== 0) throw new Error(`cmake could not configure ${path.relative(at(), folder)}.`);
   return undefined;
 }
 
@@ -25,7 +33,7 @@ export async function configureNative() {
 export async function runNativeSuite() {
   const notRun = await configureNative();
   if (notRun) return { notRun };
-  if ((await run('cmake', ['--build', NATIVE_BUILD, '--parallel', '--target', 'handlebody_tests'])) !== 0) {
+  if ((await cmakeBuild(NATIVE_BUILD, { target: 'handlebody_tests' })) !== 0) {
     console.error('native suite: does not compile');
     return { counts: { passed: 0, failed: 1 } };
   }

@@ -15,3 +15,8 @@ export function sourceFiles() {
     .filter((name) => !FOREIGN.test(name) && /\.\w+$|\/run$/.test(name) && statSync(at(name), { throwIfNoEntry: false })?.isFile())
     .sort();
 }
+
+/** Whether a file's name is one that git or patch gives to what they could not settle. @param {string} file */
+export function isLeftOver(file) {
+  return /\.(orig|rej)$/.test(file);
+}

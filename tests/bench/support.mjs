@@ -1,6 +1,7 @@
 // What the benchmarks share: building the native side, running a side, and the middle of several rounds.
 import { existsSync } from 'node:fs';
 import path from 'node:path';
+import { cmakeBuild } from '../../scripts/lib/cmake.mjs';
 import { at } from '../../scripts/lib/paths.mjs';
 import { capture, mustRun, which } from '../../scripts/lib/run.mjs';
 
@@ -12,9 +13,7 @@ export async function buildNative(name, options, target = 'handlebody_bench') {
   await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
-  await mustRun('cmake', ['--build', folder, '--parallel', '--target', target], {
-    stdio: ['ignore', 'ignore', 'inherit'],
-  });
+  if ((await cmakeBuild(folder, { target })) !== 0) throw new Error(`${target} does not compile.`);
   return path.join(folder, target);
 }
 

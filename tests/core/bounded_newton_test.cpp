@@ -10,6 +10,18 @@
 using namespace handlebody;
 using namespace handlebody::test;
 
+namespace {
+
+/** What the energy could fall by, at first order, if every vertex gave all to the handle whose force there is least. */
+double slack(const PolyharmonicWeights& weights, const BoundedProblem& problem) {
+  const Matrix w = problem.weights(), forces = weights.energy() * w;
+  double sum = 0;
+  for (const std::uint32_t v : problem.free()) sum += forces.row(v).dot(w.row(v)) - forces.row(v).minCoeff();
+  return sum;
+}
+
+}  // namespace
+
 TEST_CASE("bounded weights by Newton's method: from a rough guess to the minimum, where nothing changes any more (seeds 1 to 4)") {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     DOCTEST_SUBCASE(("seed " + std::to_string(seed)).c_str()) {
@@ -24,7 +36,7 @@ TEST_CASE("bounded weights by Newton's method: from a rough guess to the minimum
       REQUIRE(sweeps);
       for (int sweep = 0; sweep < 40; ++sweep) (*sweeps)->sweep();
       problem.evaluate((*sweeps)->x());
-      const double rough = problem.gap();
+      const double rough = problem.gap(), rough_slack = slack(weights, problem);
 
       BoundedNewton newton(problem, (*sweeps)->projected(), order);
       int steps = 0;
@@ -36,12 +48,8 @@ TEST_CASE("bounded weights by Newton's method: from a rough guess to the minimum
       CHECK(steps < 20);
       CHECK(problem.gap() < 1e-3 * rough);
       CHECK(problem.gap() < 1e-8 * problem.best_energy());
-      // Every vertex's weights are with the handles whose forces there are least, and the others have none: nothing is to be
-      // gained.
-      const Matrix w = problem.weights();
-      const Matrix forces = weights.energy() * w;
-      for (const std::uint32_t v : problem.free())
-        for (Index j = 0; j < 4; ++j) CHECK(w(v, j) * (forces(v, j) - forces.row(v).minCoeff()) < 1e-6 * problem.best_energy());
+      CHECK(slack(weights, problem) < 1e-4 * problem.best_energy());
+      CHECK(slack(weights, problem) < 0.1 * rough_slack);
     }
   }
 }

@@ -12,11 +12,7 @@ using namespace handlebody;
 namespace {
 
 MatrixXd dense_laplacian(const SimplexMesh& mesh) {
-  const SparseMatrix sparse = cotangent_laplacian(mesh);
-  MatrixXd dense = MatrixXd::Zero(mesh.positions.rows(), mesh.positions.rows());
-  for (Index row = 0; row < dense.rows(); ++row)
-    for (std::size_t k = sparse.starts[row]; k < sparse.starts[row + 1]; ++k) dense(row, sparse.columns[k]) = sparse.values[k];
-  return dense;
+  return MatrixXd(cotangent_laplacian(mesh));
 }
 
 /** ∫ |∇f|² by its definition: the gradient in each simplex from its values at the corners, within the simplex's own space. */

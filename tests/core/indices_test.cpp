@@ -93,3 +93,12 @@ TEST_CASE("no index comes after every index") {
   CHECK(sorted_indices(3, [](std::uint32_t a, std::uint32_t b) { return (a == 1 ? no_index : a) < (b == 1 ? no_index : b); }) ==
         Indices{0, 2, 1});
 }
+
+TEST_CASE("a number is in range below the count, and no_index never is") {
+  CHECK(in_range(0, 1));
+  CHECK(in_range(2, 3));
+  CHECK_FALSE(in_range(3, 3));
+  CHECK_FALSE(in_range(0, 0));
+  CHECK_FALSE(in_range(no_index, 3));
+  CHECK_FALSE(in_range(0x80000000, 0x7fffffff));
+}

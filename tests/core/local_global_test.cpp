@@ -85,7 +85,7 @@ TEST_CASE("the energy is rhsᵀ(I − hat) rhs, its right-hand side √w (R − 
     right.row(row) = system.edges.row(row) * (rotations[row / 3] - Matrix3::Identity()).transpose();
   right.bottomRows(4) = SmallSystem::mu * displacements;
   const double expected = (right.transpose() * (right - system.hat * right)).trace();
-  CHECK(iterations.energy(rotations) == doctest::Approx(expected).epsilon(1e-11));
+  CHECK(std::abs(iterations.energy(rotations) - expected) < 1e-10 * right.squaredNorm());  // a difference of large numbers
   CHECK((iterations.right_hand_side() - right).cwiseAbs().maxCoeff() < 1e-14);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("handles moved as one body turn every sphere alike, at no energy (seed
   options.tolerance = 1e-10;
   const LocalGlobalReport report = run_from_rest(iterations, options);
   CHECK(report.converged);
-  CHECK(report.energy < 1e-15);
+  CHECK(report.energy < 1e-10 * iterations.right_hand_side().squaredNorm());
   for (const Matrix3& rotation : iterations.rotations()) CHECK((rotation - turn).norm() < 1e-7);
 }
 

@@ -82,6 +82,10 @@ TEST_CASE("twins of twins have one name: the first of the chain") {
   const auto data = check_data(points, values, Coincident::merge);
   REQUIRE(data);
   CHECK(data->twin_of == std::vector<std::uint32_t>{0, 1, 1, 1});
+  points << 1.6e-9, 0.8e-9, 0, 1;  // and the other way round
+  const auto other = check_data(points, values, Coincident::merge);
+  REQUIRE(other);
+  CHECK(other->twin_of == std::vector<std::uint32_t>{0, 0, 0, 3});
 }
 
 TEST_CASE("points that all coincide: one of them is kept, and has no extent") {

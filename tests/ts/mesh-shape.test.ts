@@ -259,8 +259,8 @@ describe('outlines that are none', () => {
   ])('%s', (_, shape, code) => {
     const error = refusal(shape);
     expect(error.code).toBe(code);
-    expect(error.message.length).toBeGreaterThan(10);
-    expect(error.remedy.length).toBeGreaterThan(10);
+    expect(error.message).toMatch(/^[A-Z0-9].*\.$/);
+    expect(error.remedy).toMatch(/^[A-Z].*\.$/);
   });
 
   it('a NaN is named', () => {

@@ -1,7 +1,18 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
-import { bend, covered, finished, handleAt, picture, pngOf, rested, spoken } from './support/gingerbread.ts';
+import {
+  bend,
+  covered,
+  finished,
+  handleAt,
+  passTime,
+  picture,
+  pngOf,
+  rested,
+  spoken,
+  stoppableClock,
+} from './support/gingerbread.ts';
 import { cramped, violations } from './support/manners.ts';
 import { difference, frames, launch, loseContext, PHONE, soon, swipe } from './support/studio.ts';
 
@@ -534,16 +545,28 @@ describe('manners', () => {
   });
 
   it('poses are struck in motion, unless motion is not wanted', async () => {
-    const { page } = await bend(browser, '#man', { reducedMotion: 'no-preference' });
+    const { page } = await bend(browser, '#man', { reducedMotion: 'no-preference', before: stoppableClock });
+    const rest = await handleAt(page, 2);
+    await passTime(page, 0);
     await page.getByRole('button', { name: 'Dance' }).click();
     await frames(page, 2);
-    const [early] = await spoken(page, 2);
+    expect(await handleAt(page, 2)).toEqual(rest);
+    await passTime(page, 150);
+    await frames(page, 2);
+    const onTheWay = await handleAt(page, 2);
+    await passTime(page, 5000);
     await rested(page);
-    await frames(page, 4);
-    expect(early).toBeDefined();
-    const still = await bend(browser, '#man');
+    const struck = await handleAt(page, 2);
+    const way = Math.hypot(struck.x - rest.x, struck.y - rest.y);
+    expect(way).toBeGreaterThan(20);
+    const part = ((onTheWay.x - rest.x) * (struck.x - rest.x) + (onTheWay.y - rest.y) * (struck.y - rest.y)) / way ** 2;
+    expect(part).toBeGreaterThan(0.1);
+    expect(part).toBeLessThan(0.9);
+
+    const still = await bend(browser, '#man', { before: stoppableClock });
+    await passTime(still.page, 0);
     await still.page.getByRole('button', { name: 'Dance' }).click();
-    await frames(still.page, 3);
-    expect(await handleAt(still.page, 2)).toEqual(await handleAt(page, 2));
+    await frames(still.page, 2);
+    expect(await handleAt(still.page, 2)).toEqual(struck);
   });
 });

@@ -3,7 +3,7 @@ import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import type { BakeShape, Mesh, TetrahedralMesh, VoxelVolume } from './types.ts';
 
-export interface PreparedShape {
+interface PreparedShape {
   readonly mesh: Mesh;
   readonly cloud: boolean;
   /** The inside, where the shape is a volume. */

@@ -13,7 +13,7 @@ export interface ScatteredData {
 }
 
 /** The arguments that every *_create function of the C interface begins with, and its last. */
-export interface CreateArguments {
+interface CreateArguments {
   readonly points: number;
   readonly values: number;
   readonly count: number;

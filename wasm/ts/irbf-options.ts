@@ -17,7 +17,7 @@ export const IRBF_DEFAULTS = {
   precision: 'fixed',
 } as const;
 
-export type ResolvedIrbf = Required<IrbfOptions>;
+type ResolvedIrbf = Required<IrbfOptions>;
 
 /** The options with their defaults; names that the solver would not see are checked. */
 export function resolve(given: IrbfOptions): ResolvedIrbf {

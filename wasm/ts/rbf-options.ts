@@ -48,7 +48,7 @@ export const RBF_DEFAULTS = {
 } as const;
 
 /** The options as the solver's numbers. */
-export interface ResolvedRbf {
+interface ResolvedRbf {
   readonly name: KernelName | 'custom';
   readonly kernel: number;
   readonly hostKernel: number;

@@ -135,7 +135,7 @@ export abstract class BlendedSkin extends Skin {
 }
 
 /** What the *_create functions of blended skins begin with. */
-export interface BlendArguments {
+interface BlendArguments {
   readonly positions: number;
   readonly count: number;
   readonly dimension: number;
@@ -144,7 +144,7 @@ export interface BlendArguments {
 }
 
 /** Vertices that the positions are of. */
-export function countRows(positions: ArrayLike<number>, dimension: number): number {
+function countRows(positions: ArrayLike<number>, dimension: number): number {
   if (dimension !== 2 && dimension !== 3) {
     throw new HandlebodyError('invalid-shape', {
       message: `Positions have ${dimension} coordinates.`,

@@ -33,7 +33,7 @@ export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays
   return { arrays, arraysHash: hashArrays(arrays, lanes) };
 }
 
-export interface DecodeBodyInput {
+interface DecodeBodyInput {
   readonly header: StoredHeader;
   /** As found in the file: nothing is known of them. */
   readonly arrays: { readonly [name in keyof StoredArrays]?: unknown };

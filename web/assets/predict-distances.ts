@@ -152,7 +152,7 @@ function sumStencil(sums: Int32Array, codes: Uint16Array, { plus, minus, whole }
 }
 
 /** The places of the codes: which inside voxels of which grid, and how many centers. */
-export interface CodeLayout {
+interface CodeLayout {
   readonly voxels: Uint32Array;
   readonly dimensions: readonly [number, number, number];
   readonly centers: number;

@@ -38,7 +38,7 @@ export const BODY_VERSION = 1;
 const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
 
 /** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
-export type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
+type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
 
 /** The same in a file. */
 export interface StoredHeader extends BodyHeader {

@@ -5,7 +5,7 @@ const BLOCK = 1 << 20;
 const MAX_LINE = 1 << 24;
 const [LF, CR] = [10, 13];
 
-export interface TextLine {
+interface TextLine {
   readonly text: string;
   /** From 1. */
   readonly number: number;
@@ -48,7 +48,7 @@ function afterLineEnd(bytes: Uint8Array, start: number, end: number): number {
 }
 
 /** Where a line begins, counted as `textLines` does: for errors, so that reading need not keep count. */
-export function byteOfLine(bytes: Uint8Array, line: number): number {
+function byteOfLine(bytes: Uint8Array, line: number): number {
   let number = 1;
   for (let at = 0; at < bytes.length && number <= line; at++) {
     if (number === line) return at;

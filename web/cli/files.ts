@@ -35,7 +35,7 @@ export async function readInput(file: string): Promise<Uint8Array> {
 }
 
 /** A place to write to, looked at before the work begins. */
-export interface Output {
+interface Output {
   readonly name: string;
   /** Where symbolic links lead. */
   readonly file: string;

@@ -9,7 +9,7 @@
 import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Handle, Vec3 } from '../../wasm/ts/types.ts';
 
-export interface HandlesFile {
+interface HandlesFile {
   readonly handles: readonly Handle[];
   /** 10 numbers a handle, as `Irbf.targets` takes them. */
   readonly targets: Float64Array;

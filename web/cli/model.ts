@@ -16,9 +16,9 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
 /** Extensions that pass through unharmed. */
 const EXTENSIONS = (ALL_EXTENSIONS as (typeof Extension)[]).filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME));
 
-export type ModelFormat = 'GLB' | 'OBJ' | 'PLY';
+type ModelFormat = 'GLB' | 'OBJ' | 'PLY';
 
-export interface Model {
+interface Model {
   readonly document: Document;
   readonly format: ModelFormat;
 }

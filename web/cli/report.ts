@@ -3,13 +3,13 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { exitCodeOf } from './exit-codes.ts';
 
 /** A stream that takes text: standard output, or a test's. */
-export interface Sink {
+interface Sink {
   write(text: string): unknown;
   readonly isTTY?: boolean;
 }
 
 /** Something to know that is no error: the same shape as an error's, so that programs read both alike. */
-export interface Warning {
+interface Warning {
   readonly code: string;
   readonly message: string;
   readonly remedy?: string;
@@ -90,7 +90,7 @@ export class Report {
 }
 
 /** A message with its remedy behind it. */
-export function sentences({ message, remedy }: { readonly message: string; readonly remedy?: string }): string {
+function sentences({ message, remedy }: { readonly message: string; readonly remedy?: string }): string {
   return remedy ? `${message} ${remedy}` : message;
 }
 

@@ -4,7 +4,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { PrimitiveRange } from '../assets/index.ts';
 import { invertAffine, type Matrix, type Sixteen } from '../assets/transform.ts';
 
-export interface SceneShape {
+interface SceneShape {
   /** n×3, of all ranges together. */
   readonly positions: Float32Array;
   /** n×3. Read for primitives that have normals. */

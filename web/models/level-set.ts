@@ -1,7 +1,7 @@
 import type { Ring } from './shape.ts';
 
 /** A signed distance or something like it: negative inside. */
-export type Field = (x: number, y: number) => number;
+type Field = (x: number, y: number) => number;
 
 /**
  * The closed line on which a smooth field is zero, from a place near it, in steps of `step`: along the line, then back onto it by Newton's

@@ -16,12 +16,12 @@ export interface PlaneMesh {
   readonly smallestAngle: number;
 }
 
-export const MESH_SHAPE_DEFAULTS = { vertices: 2250, smoothing: 6 } as const;
+const MESH_SHAPE_DEFAULTS = { vertices: 2250, smoothing: 6 } as const;
 
 /** More vertices than these are refused. */
-export const MOST_VERTICES = 60_000;
+const MOST_VERTICES = 60_000;
 
-export interface MeshShapeOptions {
+interface MeshShapeOptions {
   /** About how many vertices to make. */
   readonly vertices?: number;
   /** How often to move interior vertices to the middle of what surrounds them. */
@@ -81,7 +81,7 @@ export function countFlips(positions: ArrayLike<number>, triangles: ArrayLike<nu
 }
 
 /** Smallest angle of all triangles, degrees. */
-export function smallestAngle(positions: ArrayLike<number>, triangles: ArrayLike<number>): number {
+function smallestAngle(positions: ArrayLike<number>, triangles: ArrayLike<number>): number {
   let least = 180;
   for (let t = 0; t < triangles.length; t += 3) {
     for (let k = 0; k < 3; k++) {

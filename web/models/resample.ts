@@ -1,7 +1,7 @@
 import type { Ring } from './shape.ts';
 
 /** A corner is where the direction turns by more than this, in degrees. */
-export const CORNER = 35;
+const CORNER = 35;
 
 /**
  * A closed curve with points `spacing` apart as nearly as can be, measured along it. Corners keep their place; between two corners the

@@ -10,7 +10,7 @@ export type Ring = Float64Array;
 export type Shape = readonly Ring[];
 
 /** More points than these are refused: an outline of that many is better simplified. */
-export const MOST_OUTLINE_POINTS = 20_000;
+const MOST_OUTLINE_POINTS = 20_000;
 
 /** Area inside of a ring, positive where it runs counter-clockwise (y upwards). */
 export function signedArea(ring: ArrayLike<number>): number {
@@ -52,7 +52,7 @@ function insideRing(ring: Ring, x: number, y: number): boolean {
   return odd;
 }
 
-export interface Extent {
+interface Extent {
   readonly low: readonly [number, number];
   readonly high: readonly [number, number];
 }

@@ -1,7 +1,7 @@
 import type { PlaneMesh } from './mesh-shape.ts';
 
 /** A closed triangle mesh in space: scene space, Y up. */
-export interface Slab {
+interface Slab {
   /** 2n×3: the lower face's n vertices, then the upper face's, in the plane mesh's order. */
   readonly positions: Float32Array;
   readonly triangles: Uint32Array;

@@ -13,7 +13,7 @@ import type { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
 import { Tether } from './tether.ts';
 
-export interface BodySceneOptions {
+interface BodySceneOptions {
   readonly view: View;
   readonly object: Object3D;
   readonly body: LiveBody;

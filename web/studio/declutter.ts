@@ -13,7 +13,7 @@ interface Box {
   readonly bottom: number;
 }
 
-export interface Place {
+interface Place {
   readonly x: number;
   readonly y: number;
   /** Otherwise it needs a line to its dot. */

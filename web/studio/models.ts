@@ -1,6 +1,6 @@
 /** The models that the studio offers, and where their ready-made handles sit. */
 
-export interface HandleSpot {
+interface HandleSpot {
   readonly name: string;
   /** Number of the vertex in the baked body. */
   readonly vertex: number;

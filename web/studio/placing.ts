@@ -2,7 +2,7 @@ import { byId } from '../ui/dom.ts';
 import type { Note } from './note.ts';
 
 /** What a new handle is asked of: a place on the view, −1 to 1. Says whether there is a surface. */
-export type PlaceAt = (x: number, y: number) => boolean;
+type PlaceAt = (x: number, y: number) => boolean;
 
 /** Adding handles: a double-click anywhere, or a mode in which Enter takes the middle of the view and a click takes its place. */
 export class Placing {

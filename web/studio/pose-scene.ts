@@ -7,7 +7,7 @@ import { PosePanel } from './pose-panel.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 import type { StudioScene } from './scene.ts';
 
-export interface PoseSceneOptions {
+interface PoseSceneOptions {
   readonly view: View;
   readonly solver: Handlebody;
   readonly object: Object3D;

@@ -24,7 +24,7 @@ const OWN_HANDLES = 6;
 /** Voxels along the longest side: a compact body fills most of its box, and 96 would take it a quarter of a minute. */
 const OWN_RESOLUTION = 64;
 
-export interface StudioParts {
+interface StudioParts {
   readonly view: View;
   readonly solver: Promise<Handlebody>;
   readonly messages: Messages;

@@ -21,7 +21,7 @@ export function copyShape(shape: BakeShape): { copy: BakeShape; buffers: ArrayBu
 }
 
 /** An error as plain data: a posted error loses its class and all properties of its own. */
-export interface PostedError {
+interface PostedError {
   readonly code: ErrorCode;
   readonly message: string;
   readonly remedy: string;

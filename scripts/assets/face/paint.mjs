@@ -53,7 +53,7 @@ function brow(x, y) {
  * @param {number} shade Ambient light that reaches the place, 0 to 1.
  * @returns {Color}
  */
-export function skinColor(x, y, z, shade) {
+function skinColor(x, y, z, shade) {
   const side = Math.abs(x);
   const front = between(0.75, 1.05, z);
   let color = mixColor(SKIN, [231, 184, 156], 0.6 * fbm(x * 5 + 40, y * 5 + z * 3));

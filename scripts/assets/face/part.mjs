@@ -70,7 +70,7 @@ function squaredDistance(p, i, j) {
  * @param {number} t
  * @returns {Vertex}
  */
-export function mix(p, q, t) {
+function mix(p, q, t) {
   /** @type {Map<number, number>} */
   const sum = new Map();
   for (const [k, id] of p.ids.entries()) sum.set(id, (1 - t) * (p.weights[k] ?? 0));

@@ -90,3 +90,17 @@ export function pngOf(width: number, height: number, color: (x: number, y: numbe
   for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) png.data.set(color(x, y), 4 * (y * width + x));
   return PNG.sync.write(png);
 }
+
+/** In the page, before anything else: a clock that passTime() stops and moves, so that a motion stands where a test wants it. */
+export function stoppableClock(): void {
+  const now = performance.now.bind(performance);
+  const clock = globalThis as { stoppedAt?: number };
+  performance.now = () => clock.stoppedAt ?? now();
+}
+
+/** Stops the page's clock, or moves it on, by milliseconds. */
+export async function passTime(page: Page, milliseconds: number): Promise<void> {
+  await page.evaluate((by) => {
+    (globalThis as { stoppedAt?: number }).stoppedAt = performance.now() + by;
+  }, milliseconds);
+}

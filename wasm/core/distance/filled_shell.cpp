@@ -74,7 +74,7 @@ std::vector<std::uint32_t> filled_shell(const Grid& given, const std::vector<std
     const auto cell = given.cell(c);
     return static_cast<std::size_t>(grid.linear(cell[0] + room, cell[1] + room, cell[2] + room));
   };
-  std::vector<std::uint8_t> splat(grid.size());
+  std::vector<std::uint8_t> splat(static_cast<std::size_t>(grid.size()));
   for (const std::uint32_t voxel : voxels) splat[place_of(voxel)] = 1;
   std::vector<std::uint8_t> taken;
   std::int64_t taken_count = 0;

@@ -103,7 +103,7 @@ Result<Grid> make_grid(const Vector3& low, const Vector3& high, int resolution) 
 }
 
 VoxelDomain::VoxelDomain(const Grid& grid, std::vector<std::uint32_t> voxels)
-    : grid_(grid), voxels_(std::move(voxels)), numbers_(grid.size(), -1) {
+    : grid_(grid), voxels_(std::move(voxels)), numbers_(static_cast<std::size_t>(grid.size()), -1) {
   const auto blocks = [&](int axis) { return (grid.dims[axis] + block - 1) / block; };
   std::vector<std::uint8_t> occupied(static_cast<std::size_t>(blocks(0)) * blocks(1) * blocks(2));
   for (std::size_t v = 0; v < voxels_.size(); ++v) {
@@ -118,12 +118,12 @@ VoxelDomain::VoxelDomain(const Grid& grid, std::vector<std::uint32_t> voxels)
 
 std::int32_t VoxelDomain::number(std::int64_t linear_index) const {
   if (linear_index < 0 || linear_index >= static_cast<std::int64_t>(numbers_.size())) return -1;
-  return numbers_[linear_index];
+  return numbers_[static_cast<std::size_t>(linear_index)];
 }
 
 std::int32_t VoxelDomain::number(int i, int j, int k) const {
   if (i < 0 || j < 0 || k < 0 || i >= grid_.dims[0] || j >= grid_.dims[1] || k >= grid_.dims[2]) return -1;
-  return numbers_[grid_.linear(i, j, k)];
+  return numbers_[static_cast<std::size_t>(grid_.linear(i, j, k))];
 }
 
 std::int32_t VoxelDomain::nearest(const Vector3& point) const {
@@ -138,7 +138,7 @@ std::int32_t VoxelDomain::nearest(const Vector3& point) const {
   std::int32_t found = -1;
   double best = std::numeric_limits<double>::infinity();
   const auto visit = [&](int i, int j, int k) {
-    const std::int32_t v = numbers_[grid_.linear(i, j, k)];
+    const std::int32_t v = numbers_[static_cast<std::size_t>(grid_.linear(i, j, k))];
     if (v < 0) return;
     const double distance2 = (Vector3(i, j, k) - p).squaredNorm();
     if (distance2 < best || (distance2 == best && v < found)) best = distance2, found = v;
@@ -220,7 +220,7 @@ int bridge_components(const Grid& grid, std::vector<std::uint32_t>& voxels) {
     part = face_components(domain);
     const std::int32_t parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
     if (parts < 2) return 0;
-    site.resize(grid.size());
+    site.resize(static_cast<std::size_t>(grid.size()));
     for (std::size_t c = 0; c < site.size(); ++c) site[c] = domain.number(static_cast<std::int64_t>(c));
   }
 

@@ -61,7 +61,7 @@ void for_each_touched(const Grid& grid, const ConstPoints& positions, const Cons
 /** The voxels that are inside or touched. A face that runs between voxels counts for those inside; for both sides where neither is.
  */
 std::vector<char> mark_voxels(const Grid& grid, const ConstPoints& positions, const ConstTriangles& triangles) {
-  std::vector<char> marked(grid.size(), 0);
+  std::vector<char> marked(static_cast<std::size_t>(grid.size()), 0);
   for (Index t = 0; t < triangles.rows(); ++t)
     for_each_touched(grid, positions, triangles, t, near, [&](std::size_t v) { marked[v] = 1; });
   const TriangleTree tree(positions, triangles);
@@ -89,7 +89,7 @@ std::array<std::int32_t, 3> locate(const Grid& grid, const std::vector<char>& ma
   double least = infinite;
   const auto consider = [&](int i, int j, int k) {
     if (i < 0 || j < 0 || k < 0 || i >= grid.dims[0] || j >= grid.dims[1] || k >= grid.dims[2]) return;
-    if (!marked[grid.linear(i, j, k)]) return;
+    if (!marked[static_cast<std::size_t>(grid.linear(i, j, k))]) return;
     const double squared = ((place - Vector3(i, j, k)).cwiseAbs().array() - 0.5).cwiseMax(0).square().sum();
     if (squared < least) least = squared, best = {i, j, k};
   };
@@ -126,12 +126,12 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
 
   // Corners are numbered as they are met; there is one more along each axis than there are voxels.
   const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
-  Indices number(across[0] * across[1] * across[2], no_index);
+  Indices number(static_cast<std::size_t>(across[0] * across[1] * across[2]), no_index);
   std::vector<double> places;
   Indices indices;
   const auto corner = [&](const std::array<std::int32_t, 3>& cell, int c) {
     const std::array<std::int64_t, 3> at{cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2)};
-    std::uint32_t& own = number[at[0] + across[0] * (at[1] + across[1] * at[2])];
+    std::uint32_t& own = number[static_cast<std::size_t>(at[0] + across[0] * (at[1] + across[1] * at[2]))];
     if (own == no_index) {
       own = static_cast<std::uint32_t>(places.size() / 3);
       for (std::size_t axis = 0; axis < 3; ++axis)

@@ -182,8 +182,8 @@ bool DelaunayCell::find(const double* place) {
   raise_plane();
   for (const std::uint32_t point : basis_) powers_[point] = 0;
   members_.clear();
-  for (std::uint32_t i = 0; i < costs_.size(); ++i)
-    if (powers_[i] <= tie_) members_.push_back(i);
+  for (Index i = 0; i < costs_.size(); ++i)
+    if (powers_[i] <= tie_) members_.push_back(static_cast<std::uint32_t>(i));
   return true;
 }
 

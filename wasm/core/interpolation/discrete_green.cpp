@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/numerics/decompositions.hpp"
+#include "core/numerics/indices.hpp"
 #include "core/numerics/products.hpp"
 
 namespace handlebody {
@@ -114,7 +115,7 @@ Result<DiscreteGreen> DiscreteGreen::create(Index size, int order, GridBoundary 
                  {"Give at least ", std::max<Index>(nullity, 1), nullity > 1 ? " samples." : "."});
   std::vector<Index> given(size, -1);
   for (Index k = 0; k < count; ++k) {
-    if (static_cast<Index>(samples[k]) >= size)
+    if (!in_range(samples[k], size))
       return Error(HB_ERROR_INVALID_OPTION, {"Sample ", k, " is at ", samples[k], ", outside the grid."},
                    {"Use 0 to ", size - 1, "."}, HB_CULPRIT_POINT, k);
     if (!std::isfinite(values[k]))

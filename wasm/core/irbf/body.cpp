@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/numerics/indices.hpp"
+
 namespace handlebody {
 
 namespace {
@@ -51,7 +53,7 @@ Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& tria
   }
   for (Index t = 0; t < triangles.rows(); ++t) {
     const std::uint32_t highest = triangles.row(t).maxCoeff();
-    if (static_cast<Index>(highest) < positions.rows()) continue;
+    if (in_range(highest, positions.rows())) continue;
     return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE,
                  {"Triangle ", t, " uses vertex ", highest, ", but there are only ", positions.rows(), "."},
                  {"Export the model again; its index list does not fit its vertices."}, HB_CULPRIT_TRIANGLE, t);
@@ -83,7 +85,7 @@ Result<Done> check_body(const Body& body) {
     return invalid_body({"The baked body has no centers, no voxels or no spheres."});
   }
   for (std::size_t c = 0; c < body.centers.size(); ++c) {
-    if (static_cast<Index>(body.centers[c]) < body.positions.rows()) continue;
+    if (in_range(body.centers[c], body.positions.rows())) continue;
     return invalid_body({"Center ", c, " of the baked body is vertex ", body.centers[c], ", which the mesh does not have."});
   }
   if (body.distances.size() != body.centers.size() * body.domain.voxels().size() || !std::isfinite(body.distance_scale) ||

@@ -8,6 +8,7 @@
 #include "core/irbf/sphere_energy.hpp"
 #include "core/mesh/enclosed_volume.hpp"
 #include "core/numerics/closest_rotation.hpp"
+#include "core/numerics/indices.hpp"
 
 namespace handlebody {
 
@@ -289,7 +290,7 @@ Result<Quality> Irbf::quality(const Eigen::Ref<const Tetrahedra>& tetrahedra) {
   const Points deformed = moved.cast<double>();
   if (tetrahedra.rows() > 0) {
     for (Index t = 0; t < tetrahedra.rows(); ++t) {
-      if (static_cast<Index>(tetrahedra.row(t).maxCoeff()) < vertex_count()) continue;
+      if (in_range(tetrahedra.row(t).maxCoeff(), vertex_count())) continue;
       return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE, {"Tetrahedron ", t, " uses a vertex that the body does not have."},
                    {"Give tetrahedra of the baked mesh's own vertices."}, HB_CULPRIT_TETRAHEDRON, t);
     }

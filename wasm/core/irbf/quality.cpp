@@ -90,7 +90,7 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
   if (fixed > most_bytes) return too_large(domain.size(), fixed);
   std::unique_ptr<VoxelQuality> quality(new VoxelQuality());
   // Corners of the grid's cells, one more along each axis than there are voxels, numbered as they are met.
-  std::vector<std::int32_t> numbers(across[0] * across[1] * across[2], -1);
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(across[0] * across[1] * across[2]), -1);
   std::vector<std::uint8_t> uses;  // of each corner by voxels: eight for those inside
   InteriorSamples samples;
   quality->tetrahedra_.resize(6 * domain.size(), 4);
@@ -99,7 +99,7 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
     std::array<std::uint32_t, 8> corners{};
     for (int c = 0; c < 8; ++c) {
       const std::array<std::int32_t, 3> at{cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)};
-      std::int32_t& number = numbers[at[0] + across[0] * (at[1] + across[1] * at[2])];
+      std::int32_t& number = numbers[static_cast<std::size_t>(at[0] + across[0] * (at[1] + across[1] * at[2]))];
       if (number < 0) {
         number = static_cast<std::int32_t>(uses.size());
         uses.push_back(0);

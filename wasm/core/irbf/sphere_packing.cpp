@@ -70,7 +70,7 @@ std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector
   const std::vector<std::int32_t> component = face_components(domain);
   std::int64_t waiting =
       component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;  // parts without a sphere
-  std::vector<std::uint8_t> served(waiting), covered(component.size());
+  std::vector<std::uint8_t> served(static_cast<std::size_t>(waiting)), covered(component.size());
   const double min_radius = options.min_radius * domain.grid().spacing;
 
   std::vector<Sphere> spheres;

@@ -19,10 +19,10 @@ std::vector<Sphere> sphere_tree(const VoxelDomain& domain, const std::vector<dou
     std::array<std::int64_t, 3> cells{};
     for (int a = 0; a < 3; ++a) cells[a] = (grid.dims[a] + edge - 1) / edge;
     // The deepest voxel of each cell; of equals, to a millionth of a spacing, the first.
-    std::vector<std::int32_t> deepest(cells[0] * cells[1] * cells[2], -1);
+    std::vector<std::int32_t> deepest(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]), -1);
     for (std::size_t v = 0; v < count; ++v) {
       const auto at = grid.cell(domain.voxels()[v]);
-      std::int32_t& best = deepest[at[0] / edge + cells[0] * (at[1] / edge + cells[1] * (at[2] / edge))];
+      std::int32_t& best = deepest[static_cast<std::size_t>(at[0] / edge + cells[0] * (at[1] / edge + cells[1] * (at[2] / edge)))];
       if (best < 0 || surface_distance[v] > surface_distance[best] + 1e-6 * grid.spacing) best = static_cast<std::int32_t>(v);
     }
     std::vector<std::uint8_t> candidates(count);

@@ -106,7 +106,7 @@ void MeanValueField::build(std::uint32_t* first, std::uint32_t* last) {
   nodes_.emplace_back();
   moments_.resize(moments_.size() + row);
   nodes_[node] = summarize(first, last, &moments_[node * row]);
-  if (last - first <= leaf_size) {
+  if (last - first <= std::ptrdiff_t{leaf_size}) {
     nodes_[node].first = static_cast<std::uint32_t>(first - order_.data());
     nodes_[node].count = static_cast<std::uint32_t>(last - first);
   } else {

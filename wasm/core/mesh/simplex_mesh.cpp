@@ -54,7 +54,7 @@ Result<Done> check_simplex_mesh(const SimplexMesh& mesh) {
   for (Index s = 0; s < m; ++s) {
     std::uint32_t highest = 0;
     for (Index k = 0; k < corners; ++k) highest = std::max(highest, mesh.simplices(s, k));
-    if (static_cast<Index>(highest) >= n) {
+    if (!in_range(highest, n)) {
       return Error(HB_ERROR_MESH_INDEX_OUT_OF_RANGE, {one, s, " uses vertex ", highest, ", but there are only ", n, "."},
                    {"Give vertex numbers from 0 on."}, culprit, s);
     }

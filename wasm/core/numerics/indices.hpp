@@ -2,6 +2,7 @@
 // comparison, std::sort and std::nth_element are 2 kB of code each.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,12 @@ using Indices = std::vector<std::uint32_t>;
 
 /** Stands where there is no index: a vertex that nothing holds, a voxel that is not inside. */
 inline constexpr std::uint32_t no_index = 0xffffffff;
+
+/** Whether there is a thing of that number among `count`. Compared without a sign: an Index has 32 bits on wasm32, where a number
+ * from 2³¹ on would turn negative and pass for small. */
+constexpr bool in_range(std::uint32_t number, std::ptrdiff_t count) {
+  return number < static_cast<std::size_t>(count);
+}
 
 /** Refers to a strict order "u before v" of indices; must not outlive it. */
 class Order {

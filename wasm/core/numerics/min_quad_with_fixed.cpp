@@ -41,26 +41,25 @@ Result<std::unique_ptr<MinQuadWithFixed>> MinQuadWithFixed::create(const SparseM
   made->cholesky_ = std::move(*analyzed);
   made->succeeded_ = made->cholesky_->factor(rows.among_free);
   made->free_ = std::move(free);
-  made->minus_to_fixed_ = std::move(rows.to_fixed);
-  made->minus_to_fixed_.coeffs() *= -1;
-  made->right_.resize(made->minus_to_fixed_.rows(), options.columns);
+  made->to_fixed_ = std::move(rows.to_fixed);
+  made->right_.resize(made->to_fixed_.rows(), options.columns);
   return made;
 }
 
 double MinQuadWithFixed::solve(Eigen::Ref<Matrix> u) {
   right_.resize(right_.rows(), u.cols());
-  right_.noalias() = minus_to_fixed_ * u;
+  right_.setZero();
   return finish(u);
 }
 
 double MinQuadWithFixed::solve(const Eigen::Ref<const Matrix>& f, Eigen::Ref<Matrix> u) {
   right_.resize(right_.rows(), u.cols());
   for (Index k = 0; k < right_.rows(); ++k) right_.row(k) = f.row(free_[k]);
-  right_.noalias() += minus_to_fixed_ * u;
   return finish(u);
 }
 
 double MinQuadWithFixed::finish(Eigen::Ref<Matrix>& u) {
+  right_.noalias() -= to_fixed_ * u;
   cholesky_->solve(right_.data(), right_.cols());
   double largest = 0;
   for (Index k = 0; k < right_.rows(); ++k) {

@@ -49,10 +49,11 @@ class MinQuadWithFixed {
  private:
   MinQuadWithFixed() = default;
 
+  /** From f_f in `right_` on. */
   double finish(Eigen::Ref<Matrix>& u);
 
   Indices free_;
-  SparseMatrix minus_to_fixed_;  // −Q_fp
+  SparseMatrix to_fixed_;  // Q_fp
   std::unique_ptr<SparseCholesky> cholesky_;
   Matrix right_;  // m×k: right-hand sides, then solutions
   bool succeeded_ = false;

@@ -66,7 +66,7 @@ void BoundedProblem::evaluate(const Matrix& x) {
   forces_.noalias() = energy_ * x;
   double below = held_energy_ - x.cwiseProduct(forces_).sum() / 2;
   forces_ += load_;
-  if (x.rows() > 0) below += forces_.rowwise().minCoeff().sum();
+  for (Index i = 0; i < x.rows(); ++i) below += forces_.row(i).minCoeff();
   bound_ = std::max(bound_, below);
 
   feasible_ = x.cwiseMax(0.0);

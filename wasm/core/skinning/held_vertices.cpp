@@ -16,10 +16,10 @@ Result<Done> check(const HeldVertices& held, Index vertex_count, Indices& owner_
   owner_of.assign(vertex_count, no_index);
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
     const std::uint32_t vertex = held.vertices[k], owner = held.owners[k];
-    if (static_cast<Index>(owner) >= held.handle_count)
+    if (!in_range(owner, held.handle_count))
       return Error(HB_ERROR_INVALID_OPTION, {"A vertex belongs to handle ", owner, ", which is not there."},
                    {"Count handles from 0."});
-    if (static_cast<Index>(vertex) >= vertex_count) {
+    if (!in_range(vertex, vertex_count)) {
       return Error(HB_ERROR_HANDLE_OUT_OF_RANGE,
                    {"Handle ", owner, " holds vertex ", vertex, ", but there are only ", vertex_count, "."},
                    {"Give a vertex number from 0 on."}, HB_CULPRIT_HANDLE, owner);

@@ -24,7 +24,7 @@ Result<Done> check(const SimplexMesh& mesh, const HeldVertices& held, const Eige
     return Error(HB_ERROR_HANDLES_MISSING, {"There is no handle that weights could belong to."}, {"Give one or more."});
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
     const std::uint32_t vertex = held.vertices[k], owner = held.owners[k];
-    if (static_cast<Index>(owner) < held.handle_count && static_cast<Index>(vertex) < n) continue;
+    if (in_range(owner, held.handle_count) && in_range(vertex, n)) continue;
     return Error(
         HB_ERROR_HANDLE_OUT_OF_RANGE,
         {"Handle ", owner, " of ", held.handle_count, " holds vertex ", vertex, " of ", n, "; one of the two is not there."},

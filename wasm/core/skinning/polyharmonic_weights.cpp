@@ -156,7 +156,7 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
     }
     const MatrixXd coefficients = Lu(std::move(equations)).solve(right);
     if (!coefficients.allFinite()) return false;
-    weights.noalias() += functions * coefficients;
+    for (Index j = 0; j < h; ++j) weights.col(j).noalias() += functions * coefficients.col(j);
   }
   set_unit_rows(held, weights);
   weights_ = weights;

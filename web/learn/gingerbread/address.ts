@@ -114,7 +114,7 @@ export function portable(outline: Shape): Shape {
 }
 
 /** Rings apart by ";", in thousandths. */
-export function outlineText(outline: Shape): string {
+function outlineText(outline: Shape): string {
   return outline.map((ring) => Array.from(ring, (value) => Math.round(value * 1000)).join(',')).join(';');
 }
 

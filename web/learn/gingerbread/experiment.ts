@@ -16,7 +16,7 @@ export interface Handle {
 
 export type ShapeName = 'man' | 'bar' | 'ring' | 'octopus' | 'own';
 
-export interface Show {
+interface Show {
   /** Weight of the picked handle as colors and isolines, instead of the picture. */
   weight: boolean;
   /** The triangles. */
@@ -54,7 +54,7 @@ export function endOf(handle: Handle): Place {
 }
 
 /** Cosine and sine of degrees. */
-export function turned(degrees: number): [number, number] {
+function turned(degrees: number): [number, number] {
   const angle = (degrees * Math.PI) / 180;
   return [Math.cos(angle), Math.sin(angle)];
 }

@@ -15,7 +15,7 @@ const CENTERS = 220;
 const ROUNDS = 12;
 const TARGET = 10;
 
-export interface BakeListener {
+interface BakeListener {
   readonly signal: AbortSignal;
   readonly onProgress: (part: number) => void;
 }

@@ -27,7 +27,7 @@ import { shapeOf } from './shapes.ts';
 import { drawTiles, type Tile } from './tiles.ts';
 
 /** The parts of the page that show the experiment. */
-export interface Audience {
+interface Audience {
   /** Another shape or mesh. */
   mesh(): void;
   /** Handles came or went, another method: what is listed may have changed. */

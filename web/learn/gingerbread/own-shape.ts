@@ -2,7 +2,7 @@ import { simplify, withoutRepeats } from '../../models/resample.ts';
 import { centered, checkShape, type Shape } from '../../models/shape.ts';
 import { h, svg } from '../../ui/dom.ts';
 
-export interface OwnActions {
+interface OwnActions {
   /** A sound outline, two units large. */
   take(outline: Shape): void;
   open(): void;

@@ -5,14 +5,14 @@ import { type PaintedShape, paintBar, paintMan, paintOctopus, paintRing } from '
 import type { MethodId } from './methods.ts';
 
 /** Handles in a pose, to choose from. */
-export interface Pose {
+interface Pose {
   readonly id: string;
   readonly name: string;
   readonly handles: () => Handle[];
   readonly method?: MethodId;
 }
 
-export interface KnownShape {
+interface KnownShape {
   readonly id: ShapeName;
   readonly name: string;
   readonly outline: () => Shape;

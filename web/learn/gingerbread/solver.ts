@@ -19,7 +19,7 @@ export interface Deformation {
   dispose(): void;
 }
 
-export interface Island {
+interface Island {
   readonly count: number;
   /** Its first vertex. */
   readonly first: number;

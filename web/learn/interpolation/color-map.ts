@@ -1,5 +1,5 @@
 /** Colors for numbers: viridis, and blue for positive and orange for negative around a pale zero. Both are safe for color-blind eyes. */
-export type ColorMapName = 'viridis' | 'around-zero';
+type ColorMapName = 'viridis' | 'around-zero';
 
 const STOPS: Record<ColorMapName, readonly string[]> = {
   // Sixteen of viridis' 256 colors (van der Walt and Smith, CC0); what lies between is off by 2 of 255 at the most.

@@ -14,8 +14,8 @@ export interface Model {
   slot: number;
 }
 
-export type OutlierSearch = 'off' | 'row-sum' | 'leave-one-out' | 'residual';
-export type Section = 'off' | 'across' | 'up' | 'diagonal';
+type OutlierSearch = 'off' | 'row-sum' | 'leave-one-out' | 'residual';
+type Section = 'off' | 'across' | 'up' | 'diagonal';
 
 /** What is drawn besides the interpolants. */
 export interface Show {
@@ -64,7 +64,7 @@ export const PLAIN: Readonly<Show> = {
   colors: 'viridis',
 };
 
-export const SLOTS = 8;
+const SLOTS = 8;
 export const MOST_POINTS = 60;
 export const MOST_MODELS = 12;
 

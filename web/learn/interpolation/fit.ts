@@ -4,7 +4,7 @@ import { kindOf, labelOf } from './interpolants.ts';
 import type { Data, Label } from './kind.ts';
 
 /** What can be said of a fit in numbers. */
-export interface Verdict {
+interface Verdict {
   /** Largest misfit at a point. */
   readonly misfit: number;
   readonly report: RbfReport | undefined;

@@ -4,7 +4,7 @@ import type { Settings } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { isOffered, OFFERS } from './interpolants.ts';
 
-export interface ModelActions extends CardActions {
+interface ModelActions extends CardActions {
   add(kind: string, settings: Settings): void;
 }
 

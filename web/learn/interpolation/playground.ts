@@ -23,7 +23,7 @@ import { outlierText, searchOutliers, summary } from './report.ts';
 import type { View } from './view.ts';
 
 /** The parts of the page that show the experiment. */
-export interface Audience {
+interface Audience {
   /** Something has changed, and is drawn with the next frame. */
   stir(): void;
   /** Interpolants came or went, or all is new. */

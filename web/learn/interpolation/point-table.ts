@@ -1,7 +1,7 @@
 import { h } from '../../ui/dom.ts';
 import { type Experiment, MOST_POINTS, placeOf } from './experiment.ts';
 
-export interface TableActions {
+interface TableActions {
   /** Column of a point: a coordinate, or the value behind them. */
   type(i: number, column: number, number: number): void;
   pick(i: number): void;

@@ -4,7 +4,7 @@ import { colorRange } from './scale.ts';
 
 type Recipe = readonly [kind: string, settings?: Settings];
 
-export interface Preset {
+interface Preset {
   readonly id: string;
   /** In the row of presets. */
   readonly mark: string;

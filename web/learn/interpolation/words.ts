@@ -13,11 +13,11 @@ export function brief(value: number): string {
 }
 
 /** 2e14 and 1e−5. */
-export function scientific(value: number): string {
+function scientific(value: number): string {
   return value.toExponential(0).replace('e+', 'e').replaceAll('-', '−');
 }
 
-export type Health = 'fine' | 'delicate' | 'hopeless';
+type Health = 'fine' | 'delicate' | 'hopeless';
 
 /** What a condition number means: as many of sixteen digits are lost as it has. */
 export function health(condition: number): Health {

@@ -7,7 +7,7 @@ import { METHODS, type Method } from './weights.ts';
 
 export type Blend = 'linear' | 'rigid';
 
-export interface PanelActions {
+interface PanelActions {
   setMethod(method: Method): void;
   setBlend(blend: Blend): void;
   choose(handle: number): void;

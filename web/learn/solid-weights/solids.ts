@@ -2,7 +2,7 @@ import { BoxGeometry, type Mesh as ThreeMesh } from 'three';
 import type { WeightHandle } from '../../../wasm/ts/index.ts';
 import type { Vec3 } from '../../../wasm/ts/types.ts';
 
-export interface SolidHandle {
+interface SolidHandle {
   readonly name: string;
   readonly holds: WeightHandle;
   /** What it turns about. */
