@@ -35,7 +35,11 @@ describe("the README's examples", () => {
   it('type-check under the strictest options', () => {
     const { config } = ts.readConfigFile(path.join(root, 'tsconfig.json'), ts.sys.readFile);
     const { options } = ts.parseJsonConfigFileContent({ ...config, files: [], include: [] }, ts.sys, root);
-    const entries = { handlebody: ['wasm/ts/index.ts'], 'handlebody/three': ['web/three/index.ts'] };
+    const entries = {
+      handlebody: ['wasm/ts/index.ts'],
+      'handlebody/runtime': ['wasm/ts/runtime.ts'],
+      'handlebody/three': ['web/three/index.ts'],
+    };
     const paths = Object.fromEntries(
       Object.entries(entries).map(([name, files]) => [name, files.map((file) => path.join(root, file))]),
     );
