@@ -3,7 +3,7 @@ import type { Heap } from './heap.ts';
 import { checkWebAssembly, instantiate, type Link, type Links, type LoadOptions } from './load.ts';
 
 /** A wasm file that the library carries inside: its size, and itself in raw deflate and base64. */
-export interface InlineWasm {
+interface InlineWasm {
   readonly bytes: number;
   readonly deflated: string;
 }
