@@ -49,6 +49,7 @@ export class EnergyMinimizer extends Skin {
   readonly energy: DeformationEnergy;
   /** The vertices that each handle was given; not those next to them. */
   readonly vertices: readonly (readonly number[])[];
+  /** @internal */
   declare protected readonly heap: Heap<Exports>;
   readonly #iterations: number;
   readonly #report: number;
