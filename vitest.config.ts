@@ -13,6 +13,7 @@ export default defineConfig({
         resolve: {
           alias: [
             { find: /^handlebody$/, replacement: at('wasm/ts/index.ts') },
+            { find: /^handlebody\/runtime$/, replacement: at('wasm/ts/runtime.ts') },
             { find: /^handlebody\/three$/, replacement: at('web/three/index.ts') },
           ],
         },

@@ -1,10 +1,10 @@
-// `npm run build:wasm`: compiles the solver to wasm/handlebody.wasm and notes what it was made of and with in wasm/toolchain.json.
+// `npm run build:wasm`: compiles the solver to wasm/handlebody.wasm and its smaller link wasm/handlebody.runtime.wasm, and notes what they
+// were made of and with in wasm/toolchain.json.
 // With --check it compiles into a folder of its own and fails unless the bytes are those that are committed.
 import { createHash } from 'node:crypto';
 import {
   accessSync,
   constants,
-  copyFileSync,
   existsSync,
   mkdirSync,
   mkdtempSync,
@@ -22,7 +22,7 @@ import { EIGEN, ensureEigen } from './toolchain.mjs';
 
 /** Everything whose version decides the bytes. */
 const PACKAGES = ['emscripten', 'clang-14', 'lld-14', 'llvm-14', 'binaryen'];
-const WASM = at('wasm', 'handlebody.wasm');
+const LINKS = ['handlebody.wasm', 'handlebody.runtime.wasm'];
 const RECORD = at('wasm', 'toolchain.json');
 
 /** @param {string | Buffer} data */
@@ -67,7 +67,7 @@ function environment() {
   return env;
 }
 
-/** @param {string} folder @returns {Promise<string>} the path of the wasm */
+/** Compiles in a folder. @param {string} folder @returns {Promise<Map<string, Buffer>>} the wasm files by name */
 async function compile(folder) {
   const env = environment();
   const configure = [
@@ -81,9 +81,11 @@ async function compile(folder) {
   ];
   await mustRun('emcmake', configure, { env, stdio: ['ignore', 'ignore', 'inherit'] });
   if ((await cmakeBuild(folder, { env })) !== 0) throw new Error('The solver does not compile to wasm.');
-  const built = path.join(folder, 'handlebody.wasm');
-  const leak = readFileSync(built).includes(root) ? ' It contains the path of this folder.' : '';
-  if (leak) throw new Error(`The wasm must come out equal in every folder.${leak}`);
+  const built = new Map(LINKS.map((name) => [name, readFileSync(path.join(folder, name))]));
+  for (const [name, bytes] of built) {
+    if (bytes.includes(root))
+      throw new Error(`The wasm must come out equal in every folder. ${name} contains the path of this one.`);
+  }
   return built;
 }
 
@@ -97,28 +99,33 @@ async function ensureTools() {
 
 /** Compiles afresh and compares with what is committed. @returns {Promise<number>} */
 async function check() {
-  if (!existsSync(WASM) || !existsSync(RECORD))
+  if (!existsSync(RECORD) || !LINKS.every((name) => existsSync(at('wasm', name))))
     throw new Error('There is no committed wasm to compare with: run npm run build:wasm.');
   const record = JSON.parse(readFileSync(RECORD, 'utf8'));
   mkdirSync(at('build'), { recursive: true });
   const folder = mkdtempSync(at('build', 'wasm-check-'));
   try {
-    const built = readFileSync(await compile(folder));
-    if (built.equals(readFileSync(WASM))) {
-      console.log(`wasm/handlebody.wasm is what its sources give (${built.length} bytes, sha256 ${sha256(built).slice(0, 16)}…).`);
-      return 0;
+    const built = await compile(folder);
+    const differing = [];
+    for (const [name, bytes] of built) {
+      if (!bytes.equals(readFileSync(at('wasm', name)))) differing.push(`wasm/${name}`);
+      else console.log(`wasm/${name} is what its sources give (${bytes.length} bytes, sha256 ${sha256(bytes).slice(0, 16)}…).`);
+    }
+    const stale = LINKS.filter((name) => record.wasm?.[name] !== sha256(readFileSync(at('wasm', name))));
+    if (differing.length === 0 && stale.length === 0) return 0;
+    for (const name of stale) console.error(`wasm/toolchain.json: its hash is not that of the committed ${name}.`);
+    if (differing.length === 0) {
+      console.error('wasm/toolchain.json: run npm run build:wasm and commit the result.');
+      return 1;
     }
     const versions = toolVersions();
     const changed = Object.keys({ ...record.tools, ...versions }).filter((name) => record.tools[name] !== versions[name]);
     for (const name of changed) console.error(`${name}: committed with ${record.tools[name]}, here ${versions[name]}`);
-    if (record.sources !== hashSources())
-      console.error('wasm/handlebody.wasm: source changed, run npm run build:wasm and commit the result.');
+    const files = differing.join(' and ');
+    if (record.sources !== hashSources()) console.error(`${files}: source changed, run npm run build:wasm and commit the result.`);
     else if (changed.length)
-      console.error('wasm/handlebody.wasm: toolchain changed, run npm run build:wasm with this one and commit the result.');
-    else
-      console.error(
-        'wasm/handlebody.wasm: same sources, same toolchain, other bytes. It was edited, or the build is not reproducible.',
-      );
+      console.error(`${files}: toolchain changed, run npm run build:wasm with this one and commit the result.`);
+    else console.error(`${files}: same sources, same toolchain, other bytes. It was edited, or the build is not reproducible.`);
     return 1;
   } finally {
     rmSync(folder, { recursive: true, force: true });
@@ -128,11 +135,12 @@ async function check() {
 await runMain(async () => {
   await ensureTools();
   if (process.argv.includes('--check')) return check();
-  copyFileSync(await compile(at('build', 'wasm')), WASM);
-  const wasm = readFileSync(WASM);
-  const record = { tools: toolVersions(), sources: hashSources(), wasm: sha256(wasm) };
+  const built = await compile(at('build', 'wasm'));
+  for (const [name, bytes] of built) writeFileSync(at('wasm', name), bytes);
+  const wasm = Object.fromEntries([...built].map(([name, bytes]) => [name, sha256(bytes)]));
+  const record = { tools: toolVersions(), sources: hashSources(), wasm };
   writeFileSync(RECORD, `${JSON.stringify(record, null, 2)}\n`);
   await import('./generate.mjs');
-  console.log(`wasm/handlebody.wasm: ${wasm.length} bytes.`);
+  for (const [name, bytes] of built) console.log(`wasm/${name}: ${bytes.length} bytes.`);
   return 0;
 });

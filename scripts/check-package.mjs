@@ -12,6 +12,8 @@ const SMOKE = `
 import { HandlebodyError, load } from 'handlebody';
 import { load as loadExternal } from 'handlebody/external';
 import { createIo, readBody } from 'handlebody/gltf-transform';
+import { HandlebodyError as RuntimeError, load as loadRuntime } from 'handlebody/runtime';
+import { load as loadRuntimeExternal } from 'handlebody/runtime/external';
 
 if ((await readBody(await createIo().readJSON({ json: { asset: { version: '2.0' } }, resources: {} }))) !== undefined)
   throw new Error('an empty file has a body');
@@ -24,6 +26,17 @@ for (const start of [load, loadExternal]) {
   } catch (error) {
     if (!(error instanceof HandlebodyError) || !error.remedy) throw error;
   }
+}
+if (RuntimeError !== HandlebodyError) throw new Error('the entries have error classes of their own');
+for (const start of [loadRuntime, loadRuntimeExternal]) {
+  const hb = await start();
+  if ('bake' in hb) throw new Error('the runtime promises to bake');
+  const value = hb.shepard({ dimension: 1, points: [0, 1], values: [2, 3] }).evaluate([1])[0];
+  if (value !== 3) throw new Error('the runtime interpolates to ' + value);
+}
+for (const [start, file] of [[load, 'handlebody.runtime.wasm'], [loadRuntime, 'handlebody.wasm']]) {
+  const error = await start({ wasm: new URL(import.meta.resolve('handlebody/' + file)) }).catch((e) => e);
+  if (!(error instanceof HandlebodyError) || !error.remedy) throw new Error(file + ' was not refused');
 }
 console.log('the packed library loads and answers in Node ' + process.versions.node);
 `;
@@ -70,8 +83,14 @@ const TYPES = `
 import { type BodyData, type ErrorCode, load } from 'handlebody';
 import { load as loadExternal } from 'handlebody/external';
 import type { FileErrorCode } from 'handlebody/gltf-transform';
+import { type HandlebodyRuntime, load as loadRuntime } from 'handlebody/runtime';
+import { load as loadRuntimeExternal } from 'handlebody/runtime/external';
 export const body: Promise<BodyData> = load().then((hb) => hb.bake({ positions: new Float64Array(9), triangles: new Uint32Array(3) }));
 export const other: typeof load = loadExternal;
+export const runtime: typeof loadRuntime = loadRuntimeExternal;
+export const served: Promise<HandlebodyRuntime> = load();
+// @ts-expect-error the runtime cannot bake
+export const bake = async () => (await loadRuntime()).bake;
 export const codes: ErrorCode[] = ['mesh-open', 'file-not-glb' satisfies FileErrorCode];
 // @ts-expect-error: misspelt
 export const misspelt: ErrorCode = 'file-nto-glb';

@@ -1,5 +1,5 @@
-// Writes the two generated modules of wasm/ts: the C interface as TypeScript (from the headers) and the wasm as a string.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+// Writes the generated modules of wasm/ts: the C interface as TypeScript (from the headers) and each wasm file as a string.
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
@@ -49,9 +49,10 @@ function structLayouts(header) {
 /** The most arguments that a call may take: beyond, they are too easily swapped, and a struct names them. */
 const MOST_ARGUMENTS = 8;
 
-/** @param {string} header */
-function exportSignatures(header) {
-  return [...withoutComments(header).matchAll(/^HB_API (.+?)(hb_\w+)\((.*)\);$/gm)].map(([, type, name, parameters]) => {
+/** The functions behind one marker, as methods. @param {string} header @param {'HB_API' | 'HB_WHOLE_API'} marker */
+function exportSignatures(header, marker) {
+  const functions = withoutComments(header).matchAll(new RegExp(`^${marker} (.+?)(hb_\\w+)\\((.*)\\);$`, 'gm'));
+  const signatures = [...functions].map(([, type, name, parameters]) => {
     const names =
       parameters === 'void'
         ? []
@@ -59,6 +60,7 @@ function exportSignatures(header) {
     if (names.length > MOST_ARGUMENTS) throw new Error(`generate: ${name} takes ${names.length} arguments; put some into a struct`);
     return `  ${name}(${names.join(', ')}): ${/** @type {string} */ (type).trim() === 'void' ? 'void' : 'number'};`;
   });
+  return signatures.join('\n');
 }
 
 const status = readFileSync(at('wasm/core/errors/status.h'), 'utf8');
@@ -104,20 +106,33 @@ export const LAYOUT = {
 ${structLayouts(abi)}
 } as const;
 
-/** The wasm module's exports. */
-export interface Exports {
+/** What both wasm files export, handlebody.runtime.wasm nothing else. */
+export interface RuntimeExports {
   readonly memory: WebAssembly.Memory;
-${exportSignatures(abi).join('\n')}
+${exportSignatures(abi, 'HB_API')}
+}
+
+/** The exports of handlebody.wasm. */
+export interface Exports extends RuntimeExports {
+${exportSignatures(abi, 'HB_WHOLE_API')}
 }
 `,
 );
 
-const wasm = readFileSync(at('wasm/handlebody.wasm'));
-write(
-  'wasm/ts/binary.generated.ts',
-  `// Generated from wasm/handlebody.wasm by scripts/generate.mjs: raw deflate, base64.
+/** @type {[from: string, to: string][]} */
+const MODULES = [
+  ['wasm/handlebody.wasm', 'wasm/ts/binary.generated.ts'],
+  ['wasm/handlebody.runtime.wasm', 'wasm/ts/runtime-binary.generated.ts'],
+];
+for (const [file, name] of MODULES) {
+  if (!existsSync(at(file))) throw new Error(`${file} is not there: run npm run build:wasm, or check it out again.`);
+  const wasm = readFileSync(at(file));
+  write(
+    name,
+    `// Generated from ${file} by scripts/generate.mjs: raw deflate, base64.
 export const WASM_BYTES = ${wasm.length};
 export const WASM_DEFLATED_BASE64 =
   '${deflateRawSync(wasm, { level: 9 }).toString('base64')}';
 `,
-);
+  );
+}

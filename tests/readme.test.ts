@@ -11,7 +11,11 @@ const text = (file: string) => readFileSync(path.join(root, file), 'utf8');
 const PAGES = ['README.md', 'wasm/ts/README.md', 'web/cli/README.md', 'tests/bench/README.md', 'CONTRIBUTING.md'];
 
 /** Every TypeScript block of the README and of the library's page, as a module that hands out its results. */
-const examples = [...PAGES.map(text).join('\n').matchAll(/^```ts\n([\s\S]*?)^```$/gm)].map((match, index) => ({
+const examples = [
+  ...PAGES.map(text)
+    .join('\n')
+    .matchAll(/^```ts\n([\s\S]*?)^```$/gm),
+].map((match, index) => ({
   code: match[1] ?? '',
   file: path.join(folder, `example-${index + 1}.ts`),
 }));
@@ -35,7 +39,11 @@ describe("the README's examples", () => {
   it('type-check under the strictest options', () => {
     const { config } = ts.readConfigFile(path.join(root, 'tsconfig.json'), ts.sys.readFile);
     const { options } = ts.parseJsonConfigFileContent({ ...config, files: [], include: [] }, ts.sys, root);
-    const entries = { handlebody: ['wasm/ts/index.ts'], 'handlebody/three': ['web/three/index.ts'] };
+    const entries = {
+      handlebody: ['wasm/ts/index.ts'],
+      'handlebody/runtime': ['wasm/ts/runtime.ts'],
+      'handlebody/three': ['web/three/index.ts'],
+    };
     const paths = Object.fromEntries(
       Object.entries(entries).map(([name, files]) => [name, files.map((file) => path.join(root, file))]),
     );

@@ -82,15 +82,22 @@ describe('models', () => {
     expect(said).toEqual([]);
   });
 
-  it('asks for no second model and no worker before it is wanted', async () => {
+  it('asks for no second model, no worker and nothing that bakes before it is wanted', async () => {
     const context = await browser.newContext();
     const page = await context.newPage();
     const asked: string[] = [];
+    const scripts: Promise<string>[] = [];
     page.on('request', (request) => asked.push(request.url()));
+    page.on('response', (response) => {
+      if (response.url().endsWith('.js')) scripts.push(response.text());
+    });
     await page.goto(`${inject('site')}studio/`);
     await page.waitForSelector('#studio[data-state=ready]');
     await settled(page);
     expect(asked.filter((url) => /\.glb$|worker|pose-scene/.test(url)).map((url) => url.split('/').at(-1))).toEqual(['dog.glb']);
+    const code = (await Promise.all(scripts)).join('');
+    expect(code).toContain('hb_irbf_create');
+    expect(code).not.toContain('hb_bake_step');
     await context.close();
   });
 

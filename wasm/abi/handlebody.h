@@ -1,7 +1,9 @@
 /* Handlebody: the C interface of the solver.
  *
- * This header is the whole contract between the solver and its callers: TypeScript's declarations, the offsets of the structs
- * and the wasm export list are generated from it (scripts/generate.mjs), so keep one function a line, each behind HB_API.
+ * This header is the whole contract between the solver and its callers: TypeScript's declarations, the offsets of the structs and
+ * the export lists of both wasm files are made from it (scripts/generate.mjs, CMakeLists.txt), so keep one function a line. Behind
+ * HB_API stands what both files export; behind HB_WHOLE_API what handlebody.wasm alone does: baking, tetrahedra, skinning weights
+ * and minimized energies. handlebody.runtime.wasm moves and evaluates what they made.
  *
  * Conventions
  *   - Every function that can fail returns an hb_status; hb_last_error() then tells the whole story. On failure out-parameters
@@ -21,6 +23,7 @@
 #include "core/errors/status.h"
 
 #define HB_API
+#define HB_WHOLE_API
 
 #ifdef __cplusplus
 extern "C" {
@@ -99,22 +102,22 @@ typedef struct hb_bake_warning {
 } hb_bake_warning;
 
 /* Refuses a mesh that is too large by its counts alone, before its arrays are copied in. Fails with MESH_TOO_LARGE. */
-HB_API int32_t hb_mesh_check_size(double vertex_count, double triangle_count);
+HB_WHOLE_API int32_t hb_mesh_check_size(double vertex_count, double triangle_count);
 
 /* Checks a surface, point cloud or volume and begins to bake it. Fails with MESH_* codes, INVALID_SHAPE, INVALID_OPTION. */
-HB_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const hb_bake_options* options, hb_bake** bake);
+HB_WHOLE_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const hb_bake_options* options, hb_bake** bake);
 
 /* One bounded step (some triangles, a slab of voxels or one center). `progress` grows from 0 to 1; the bake is done when it is 1. Fails
  * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED. */
-HB_API int32_t hb_bake_step(hb_bake* bake, double* progress);
+HB_WHOLE_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 
 /* The finished body, owned by the bake. */
-HB_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
+HB_WHOLE_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
 
 /* What there is to tell so far: the number of warnings, of which number `index` is written, if there is one. */
-HB_API uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* warning);
+HB_WHOLE_API uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* warning);
 
-HB_API void hb_bake_free(hb_bake* bake);
+HB_WHOLE_API void hb_bake_free(hb_bake* bake);
 
 /* ---- IRBF: the deformation -------------------------------------------------------------------------------------------- */
 
@@ -372,11 +375,11 @@ typedef struct hb_tetrahedra_view {
 
 /* The voxels that a surface touches or encloses, `resolution` (4 to 256) along its longest side, as six tetrahedra each. Fails with MESH_* or
  * INVALID_OPTION. */
-HB_API int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, uint32_t resolution, hb_tetrahedra** tetrahedra);
+HB_WHOLE_API int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, uint32_t resolution, hb_tetrahedra** tetrahedra);
 
-HB_API void hb_tetrahedra_arrays(hb_tetrahedra* tetrahedra, hb_tetrahedra_view* view);
+HB_WHOLE_API void hb_tetrahedra_arrays(hb_tetrahedra* tetrahedra, hb_tetrahedra_view* view);
 
-HB_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
+HB_WHOLE_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
 
 /* ---- skinning weights ------------------------------------------------------------------------------------------------------ */
 
@@ -417,25 +420,25 @@ typedef struct hb_sparse_matrix {
 
 /* The operators of a mesh. `order` 1 harmonic (least ∫|∇w|²), 2 biharmonic (∫(Δw)²), 3 triharmonic (∫|∇Δw|²); `mass` 0 Voronoi, mixed where
  * obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
-HB_API int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
+HB_WHOLE_API int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
 
 /* Each handle holds one vertex or more. Solves, the first time by factoring, later by small updates where that is less work. Fails with
  * HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT (two on one vertex), OUT_OF_MEMORY or SYSTEM_SINGULAR, and keeps the former weights. */
-HB_API int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles);
+HB_WHOLE_API int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles);
 
 /* vertex_count × handle_count; rows sum to 1. */
-HB_API const double* hb_skinning_weights_values(hb_skinning_weights* weights);
+HB_WHOLE_API const double* hb_skinning_weights_values(hb_skinning_weights* weights);
 
 /* 1 where the last set_handles factored anew, 0 where it was an update. */
-HB_API uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights);
+HB_WHOLE_API uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights);
 
 /* The parts without a handle of their own, and their number. */
-HB_API uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const hb_island** islands);
+HB_WHOLE_API uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const hb_island** islands);
 
 /* The diagonal mass matrix (vertex_count), and the matrix Q of the energy wᵀQw with the number of its entries: minus libigl's `cotmatrix` for order
  * 1, the bi-Laplacian C M⁻¹ C for order 2. */
-HB_API const double* hb_skinning_weights_mass(hb_skinning_weights* weights);
-HB_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* energy);
+HB_WHOLE_API const double* hb_skinning_weights_mass(hb_skinning_weights* weights);
+HB_WHOLE_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* energy);
 
 /* What bounding the weights came to. */
 typedef struct hb_bounded_report {
@@ -448,10 +451,10 @@ typedef struct hb_bounded_report {
 /* Begins to bring the weights into [0, 1]: least ½ Σⱼ wⱼᵀQwⱼ of all handles together with w ≥ 0 and rows that sum to 1, to `tolerance` of the energy.
  * Then step until `progress` is 1; hb_skinning_weights_values() are the bounded ones from then on, until other handles are set. Fails as
  * hb_skinning_weights_set_handles does. */
-HB_API int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance);
-HB_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report);
+HB_WHOLE_API int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance);
+HB_WHOLE_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report);
 
-HB_API void hb_skinning_weights_free(hb_skinning_weights* weights);
+HB_WHOLE_API void hb_skinning_weights_free(hb_skinning_weights* weights);
 
 /* How well weights do what is asked of them, each the worst number over the mesh: see core/skinning/measure_weights.hpp. */
 typedef struct hb_weight_measures {
@@ -466,7 +469,7 @@ typedef struct hb_weight_measures {
 /* Measures any `weights` (vertex_count × handle_count); handles may share vertices here. `support` (handle_count) becomes the part of the area or
  * volume where each weight counts. Fails with MESH_*, INVALID_SHAPE, HANDLES_MISSING, HANDLE_OUT_OF_RANGE, VALUE_NOT_FINITE (culprit: the
  * vertex) or OUT_OF_MEMORY. */
-HB_API int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support, hb_weight_measures* measures);
+HB_WHOLE_API int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support, hb_weight_measures* measures);
 
 /* ---- skinning: a shape under a few moving handles ----------------------------------------------------------------------- */
 
@@ -490,7 +493,7 @@ HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
 /* Minimizes an energy of triangles in the plane instead, while the handles hold their vertices, and the ones around a handle of one vertex.
  * `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails with MESH_*, INVALID_SHAPE,
  * HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT, INVALID_OPTION, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
-HB_API int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin);
+HB_WHOLE_API int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin);
 
 typedef struct hb_minimizer_report {
   double energy;
@@ -500,7 +503,7 @@ typedef struct hb_minimizer_report {
 
 /* hb_skin_deform() of what hb_minimizer_create made, with up to `iterations` rounds (as rigid as possible) from where the last call stopped.
  * Fails likewise, or with INVALID_OPTION. */
-HB_API int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report);
+HB_WHOLE_API int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report);
 
 HB_API void hb_skin_free(hb_skin* skin);
 

@@ -1,4 +1,6 @@
 /** From everything that can be baked to what the solver bakes: a mesh to show and deform, and what is known of its inside. */
+import type { Exports } from './abi.generated.ts';
+import { checkMeshArrays } from './check-mesh.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import type { BakeShape, Mesh, TetrahedralMesh, VoxelVolume } from './types.ts';
@@ -13,7 +15,7 @@ interface PreparedShape {
 const MOST_VOXELS = 64e6;
 
 /** Checks a shape's arrays and makes its mesh. Throws 'invalid-shape', 'mesh-too-large', 'mesh-index-out-of-range' … */
-export function prepareShape(heap: Heap, shape: BakeShape): PreparedShape {
+export function prepareShape(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
   if ('dimensions' in shape) return prepareVolume(shape);
   checkSize(heap, shape);
   if ('tetrahedra' in shape) {
@@ -27,22 +29,8 @@ export function prepareShape(heap: Heap, shape: BakeShape): PreparedShape {
   return { mesh, cloud, voxels: undefined };
 }
 
-/** Lengths that the solver cannot see for itself; the values are checked there. */
-export function checkMeshArrays(mesh: Mesh): void {
-  for (const [name, length] of [
-    ['positions', mesh.positions.length],
-    ['triangles', mesh.triangles.length],
-  ] as const) {
-    if (length % 3 === 0) continue;
-    throw new HandlebodyError('invalid-shape', {
-      message: `The mesh's ${name} have ${length} numbers, which is not a multiple of 3.`,
-      remedy: name === 'positions' ? 'Give x, y and z for every vertex.' : 'Give three vertex indices for every triangle.',
-    });
-  }
-}
-
 /** By the counts alone: nothing has been copied yet. */
-function checkSize(heap: Heap, shape: Exclude<BakeShape, VoxelVolume>): void {
+function checkSize(heap: Heap<Exports>, shape: Exclude<BakeShape, VoxelVolume>): void {
   const indices = 'tetrahedra' in shape ? shape.tetrahedra.length / 4 : 'triangles' in shape ? shape.triangles.length / 3 : 0;
   heap.check((e) => e.hb_mesh_check_size(shape.positions.length / 3, indices));
 }

@@ -1,5 +1,5 @@
 /** What the solver's warnings mean, in words. */
-import { LAYOUT, WARNING_CODES, type WarningCode } from './abi.generated.ts';
+import { type Exports, LAYOUT, WARNING_CODES, type WarningCode } from './abi.generated.ts';
 import type { Heap } from './heap.ts';
 import type { BakeWarning, Vec3 } from './types.ts';
 
@@ -39,7 +39,7 @@ const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string
 };
 
 /** Tells the warnings from number `told` on; returns how many there are. */
-export function tellWarnings(heap: Heap, bake: number, told: number, tell: (warning: BakeWarning) => void): number {
+export function tellWarnings(heap: Heap<Exports>, bake: number, told: number, tell: (warning: BakeWarning) => void): number {
   const layout = LAYOUT.hb_bake_warning;
   const warnings = heap.scope((scratch) => {
     const out = scratch.reserve(layout.sizeof);
@@ -51,7 +51,7 @@ export function tellWarnings(heap: Heap, bake: number, told: number, tell: (warn
   return told + warnings.length;
 }
 
-function readWarning(heap: Heap, from: number): BakeWarning {
+function readWarning(heap: Heap<Exports>, from: number): BakeWarning {
   const layout = LAYOUT.hb_bake_warning;
   const [number = 0, vertex = 0, count = 0, placed = 0] = heap.u32(from, 4);
   const code = WARNING_CODES[number as keyof typeof WARNING_CODES];

@@ -1,4 +1,4 @@
-import { LAYOUT } from './abi.generated.ts';
+import { type Exports, LAYOUT } from './abi.generated.ts';
 import { prepareShape } from './bake-shape.ts';
 import { tellWarnings } from './bake-warnings.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
@@ -6,8 +6,6 @@ import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
 import { runStepped } from './stepped.ts';
 import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh } from './types.ts';
-
-export { checkMeshArrays } from './bake-shape.ts';
 
 export const BAKE_DEFAULTS = {
   centers: 200,
@@ -21,7 +19,7 @@ const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean:
 const PACKINGS = { skeleton: 0, tree: 1 } as const;
 
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
-export async function bake(heap: Heap, shape: BakeShape, options: BakeOptions): Promise<BodyData> {
+export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeOptions): Promise<BodyData> {
   const { centers, distance, resolution, spheres, packing } = { ...BAKE_DEFAULTS, ...options };
   throwIfAborted(options.signal);
   for (const [name, value] of Object.entries({ centers, resolution, spheres })) {
@@ -88,7 +86,7 @@ function chosen<Name extends string>(what: string, numbers: Record<Name, number>
   });
 }
 
-function readBody(heap: Heap, bake: number, mesh: Mesh, distance: DistanceMethod): BodyData {
+function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: DistanceMethod): BodyData {
   const layout = LAYOUT.hb_body;
   return heap.scope((scratch) => {
     const body = scratch.reserve(layout.sizeof);

@@ -1,4 +1,4 @@
-import { LAYOUT } from './abi.generated.ts';
+import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { type CheckedMesh, checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
@@ -70,7 +70,7 @@ export interface SparseRows {
  */
 export class BiharmonicWeights {
   readonly vertexCount: number;
-  readonly #heap: Heap;
+  readonly #heap: Heap<Exports>;
   readonly #mesh: CheckedMesh;
   #object: number;
   #vertices: readonly (readonly number[])[] = [];
@@ -83,7 +83,7 @@ export class BiharmonicWeights {
   #run = 0;
 
   /** @internal Use `Handlebody.biharmonicWeights`. */
-  constructor(heap: Heap, mesh: SimplexMesh, handles: readonly WeightHandle[], options: BiharmonicWeightsOptions = {}) {
+  constructor(heap: Heap<Exports>, mesh: SimplexMesh, handles: readonly WeightHandle[], options: BiharmonicWeightsOptions = {}) {
     const { order, mass, bounded } = { ...BIHARMONIC_WEIGHTS_DEFAULTS, ...options };
     if (mass !== 'voronoi' && mass !== 'barycentric') {
       throw new HandlebodyError('invalid-option', {

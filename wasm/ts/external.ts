@@ -1,4 +1,5 @@
-import { type Handlebody, instantiate, type LoadOptions } from './load.ts';
+import { Handlebody } from './handlebody.ts';
+import { instantiate, type LoadOptions } from './load.ts';
 
 export * from './api.ts';
 
@@ -7,5 +8,6 @@ export * from './api.ts';
  * `handlebody.wasm` themselves. Without `wasm` the file is looked for in the package, where Node and most bundlers find it.
  */
 export async function load(options: LoadOptions = {}): Promise<Handlebody> {
-  return instantiate(options.wasm ?? new URL('../../../wasm/handlebody.wasm', import.meta.url), options.signal);
+  const source = options.wasm ?? new URL('../../../wasm/handlebody.wasm', import.meta.url);
+  return new Handlebody(await instantiate('handlebody.wasm', source, options.signal));
 }

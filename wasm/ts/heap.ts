@@ -1,4 +1,4 @@
-import { CULPRIT_KINDS, ERROR_CODES, type Exports, LAYOUT } from './abi.generated.ts';
+import { CULPRIT_KINDS, ERROR_CODES, LAYOUT, type RuntimeExports } from './abi.generated.ts';
 import { type Culprit, HandlebodyError } from './errors.ts';
 import { HostKernels } from './host-kernels.ts';
 
@@ -6,16 +6,17 @@ type NumberArray = ArrayLike<number> & { readonly length: number };
 
 /**
  * The only code that touches wasm memory. Any call into the module may grow its memory, after which every earlier view silently
- * reads as empty: so views are made fresh by each method here and never kept.
+ * reads as empty: so views are made fresh by each method here and never kept. `Heap<Exports>` is of the whole solver and serves where any
+ * does.
  */
-export class Heap {
+export class Heap<E extends RuntimeExports = RuntimeExports> {
   /** Callers' kernels, which the solver calls back. */
   readonly kernels: HostKernels;
-  readonly #exports: Exports;
+  readonly #exports: E;
   #trapped: unknown;
   #running = false;
 
-  constructor(exports: Exports, kernels = new HostKernels()) {
+  constructor(exports: E, kernels = new HostKernels()) {
     this.#exports = exports;
     this.kernels = kernels;
   }
@@ -56,7 +57,7 @@ export class Heap {
   }
 
   /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
-  call<T>(run: (exports: Exports) => T): T {
+  call<T>(run: (exports: E) => T): T {
     if (this.#trapped !== undefined) throw this.#poisoned();
     if (this.#running) {
       throw new HandlebodyError('invalid-option', {
@@ -77,7 +78,7 @@ export class Heap {
   }
 
   /** Calls a function that returns a status; throws its error. */
-  check(run: (exports: Exports) => number): void {
+  check(run: (exports: E) => number): void {
     if (this.call(run) !== 0) throw this.#lastError();
   }
 

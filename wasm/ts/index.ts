@@ -1,6 +1,7 @@
-import { HandlebodyError } from './errors.ts';
-import { inlineModule } from './inline.ts';
-import { type Handlebody, instantiate, type LoadOptions } from './load.ts';
+import { WASM_BYTES, WASM_DEFLATED_BASE64 } from './binary.generated.ts';
+import { Handlebody } from './handlebody.ts';
+import { loadInline } from './inline.ts';
+import type { LoadOptions } from './load.ts';
 
 export * from './api.ts';
 
@@ -14,17 +15,5 @@ export * from './api.ts';
  * ```
  */
 export async function load(options: LoadOptions = {}): Promise<Handlebody> {
-  if (options.wasm) return instantiate(options.wasm, options.signal);
-  if (typeof WebAssembly !== 'object') return instantiate(new Uint8Array(), options.signal);
-  let module: WebAssembly.Module;
-  try {
-    module = await inlineModule();
-  } catch (cause) {
-    throw new HandlebodyError('wasm-unavailable', {
-      message: `The solver's WebAssembly could not be compiled: ${cause instanceof Error ? cause.message : String(cause)}`,
-      remedy: "Use a current browser; a content security policy needs 'wasm-unsafe-eval'.",
-      cause,
-    });
-  }
-  return instantiate(module, options.signal);
+  return new Handlebody(await loadInline('handlebody.wasm', { bytes: WASM_BYTES, deflated: WASM_DEFLATED_BASE64 }, options));
 }

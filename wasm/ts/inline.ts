@@ -1,10 +1,39 @@
-import { WASM_BYTES, WASM_DEFLATED_BASE64 } from './binary.generated.ts';
+import { HandlebodyError } from './errors.ts';
+import type { Heap } from './heap.ts';
+import { checkWebAssembly, instantiate, type Link, type Links, type LoadOptions } from './load.ts';
 
-/** Decompresses and compiles the wasm that the library carries inside. */
-export async function inlineModule(): Promise<WebAssembly.Module> {
-  const deflated = Uint8Array.from(atob(WASM_DEFLATED_BASE64), (c) => c.charCodeAt(0));
-  const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
-  const bytes = await new Response(stream).arrayBuffer();
-  if (bytes.byteLength !== WASM_BYTES) throw new Error(`the wasm inside is damaged: ${bytes.byteLength} of ${WASM_BYTES} bytes`);
-  return WebAssembly.compile(bytes);
+/** A wasm file that the library carries inside: its size, and itself in raw deflate and base64. */
+interface InlineWasm {
+  readonly bytes: number;
+  readonly deflated: string;
+}
+
+/** Starts one of the two links: from the wasm that the caller names, or else from the one inside. */
+export async function loadInline<L extends Link>(
+  link: L,
+  inside: InlineWasm,
+  { wasm, signal }: LoadOptions,
+): Promise<Heap<Links[L]>> {
+  if (wasm) return instantiate(link, wasm, signal);
+  checkWebAssembly();
+  let module: WebAssembly.Module;
+  try {
+    module = await compile(inside);
+  } catch (cause) {
+    throw new HandlebodyError('wasm-unavailable', {
+      message: `The solver's WebAssembly could not be compiled: ${cause instanceof Error ? cause.message : String(cause)}`,
+      remedy: "Use a current browser; a content security policy needs 'wasm-unsafe-eval'.",
+      cause,
+    });
+  }
+  return instantiate(link, module, signal);
+}
+
+async function compile({ bytes, deflated }: InlineWasm): Promise<WebAssembly.Module> {
+  const stream = new Blob([Uint8Array.from(atob(deflated), (c) => c.charCodeAt(0))])
+    .stream()
+    .pipeThrough(new DecompressionStream('deflate-raw'));
+  const inflated = await new Response(stream).arrayBuffer();
+  if (inflated.byteLength !== bytes) throw new Error(`the wasm inside is damaged: ${inflated.byteLength} of ${bytes} bytes`);
+  return WebAssembly.compile(inflated);
 }

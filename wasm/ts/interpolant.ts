@@ -1,4 +1,4 @@
-import type { Exports } from './abi.generated.ts';
+import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 
@@ -49,7 +49,7 @@ export abstract class Interpolant {
   protected constructor(
     heap: Heap,
     data: ScatteredData,
-    create: (exports: Exports, given: CreateArguments, options: number) => number,
+    create: (exports: RuntimeExports, given: CreateArguments, options: number) => number,
     /** Puts further arguments into memory and returns their address. */
     writeOptions: (scratch: Scratch) => number = () => 0,
   ) {

@@ -1,5 +1,5 @@
 import { LAYOUT } from './abi.generated.ts';
-import { checkMeshArrays } from './bake.ts';
+import { checkMeshArrays } from './check-mesh.ts';
 import { HandlebodyError } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';

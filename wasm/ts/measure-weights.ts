@@ -1,4 +1,4 @@
-import { LAYOUT } from './abi.generated.ts';
+import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
@@ -34,7 +34,7 @@ export const WEIGHT_REQUIREMENTS = { smooth: 0.5, local: 0.35, shapeAware: 0.25,
 
 /** @internal Use `Handlebody.measureWeights`. */
 export function measureWeights(
-  heap: Heap,
+  heap: Heap<Exports>,
   mesh: SimplexMesh,
   handles: readonly WeightHandle[],
   weights: ArrayLike<number>,

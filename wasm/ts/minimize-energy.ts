@@ -1,4 +1,4 @@
-import { LAYOUT } from './abi.generated.ts';
+import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
@@ -49,11 +49,13 @@ export class EnergyMinimizer extends Skin {
   readonly energy: DeformationEnergy;
   /** The vertices that each handle was given; not those next to them. */
   readonly vertices: readonly (readonly number[])[];
+  /** @internal */
+  declare protected readonly heap: Heap<Exports>;
   readonly #iterations: number;
   readonly #report: number;
 
   /** @internal Use `Handlebody.minimizeEnergy`. */
-  constructor(heap: Heap, mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions) {
+  constructor(heap: Heap<Exports>, mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions) {
     const { energy, iterations } = { ...MINIMIZE_ENERGY_DEFAULTS, ...options };
     const number = ENERGIES.indexOf(energy);
     if (number === -1) throw badOption(`There is no energy called "${energy}".`, `Use one of: ${ENERGIES.join(', ')}.`);
@@ -70,7 +72,7 @@ export class EnergyMinimizer extends Skin {
     super(
       heap,
       { dimension: 2, vertexCount: checked.vertexCount, handleCount: handles.length },
-      (e, out, [shape = 0, held = 0]) => e.hb_minimizer_create(shape, held, number, out),
+      (out, [shape = 0, held = 0]) => heap.check((e) => e.hb_minimizer_create(shape, held, number, out)),
       (scratch) => [putMesh(heap, scratch, checked), putHeld(heap, scratch, vertices)],
     );
     this.energy = energy;
@@ -81,10 +83,11 @@ export class EnergyMinimizer extends Skin {
 
   /** Writes the deformed positions, n×2. Allocates nothing but the report. */
   deform(out: Float32Array): MinimizeEnergyReport {
-    this.move(out, (e, skin, to) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report));
+    const { heap } = this;
+    this.move(out, (skin, to) => heap.check((e) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report)));
     const { energy, iterations } = LAYOUT.hb_minimizer_report;
-    const [taken = 0, flips = 0] = this.heap.u32(this.#report + iterations, 2);
-    return { energy: this.heap.f64(this.#report + energy, 1)[0] ?? 0, iterations: taken, flips };
+    const [taken = 0, flips = 0] = heap.u32(this.#report + iterations, 2);
+    return { energy: heap.f64(this.#report + energy, 1)[0] ?? 0, iterations: taken, flips };
   }
 
   override dispose(): void {

@@ -1,4 +1,4 @@
-import type { Exports } from './abi.generated.ts';
+import type { RuntimeExports } from './abi.generated.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant } from './interpolant.ts';
 import type { KernelName } from './kernels.ts';
@@ -81,7 +81,7 @@ export class Rbf extends Interpolant {
     this.heap.kernels.remove(this.#hostKernel);
   }
 
-  #read(length: number, run: (exports: Exports, out: number) => number): Float64Array {
+  #read(length: number, run: (exports: RuntimeExports, out: number) => number): Float64Array {
     return this.heap.scope((scratch) => {
       const out = scratch.reserve(8 * length);
       this.heap.check((e) => run(e, out));

@@ -1,4 +1,4 @@
-import type { Exports } from './abi.generated.ts';
+import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 
@@ -37,7 +37,8 @@ export abstract class Skin {
   protected constructor(
     heap: Heap,
     shape: { readonly dimension: 2 | 3; readonly vertexCount: number; readonly handleCount: number },
-    create: (exports: Exports, out: number, given: readonly number[]) => number,
+    /** Makes the object from what `put` returned, and writes its address to `out`. */
+    create: (out: number, given: readonly number[]) => void,
     /** Copies the arguments of `create` in and returns their addresses. */
     put: (scratch: Scratch) => readonly number[],
   ) {
@@ -49,7 +50,7 @@ export abstract class Skin {
     const handle = heap.scope((scratch) => {
       const given = put(scratch);
       const out = scratch.reserve(4);
-      heap.check((e) => create(e, out, given));
+      create(out, given);
       return heap.u32(out, 1)[0] ?? 0;
     });
     this.#handle = handle;
@@ -77,7 +78,7 @@ export abstract class Skin {
   }
 
   /** @internal Moves the vertices by what `transforms` says now: `run` gets the object and where positions go. */
-  protected move(given: Float32Array | undefined, run: (exports: Exports, handle: number, out: number) => number): Float32Array {
+  protected move(given: Float32Array | undefined, run: (handle: number, out: number) => void): Float32Array {
     const { heap, transforms } = this;
     const handle = this.#handle;
     if (handle === 0) {
@@ -96,7 +97,7 @@ export abstract class Skin {
     }
     const at = heap.call((e) => e.hb_skin_transforms(handle));
     heap.f64(at, transforms.length).set(transforms);
-    heap.check((e) => run(e, handle, this.#out));
+    run(handle, this.#out);
     out.set(heap.f32(this.#out, length));
     return out;
   }
@@ -108,7 +109,7 @@ export abstract class BlendedSkin extends Skin {
   protected constructor(
     heap: Heap,
     options: SkinOptions,
-    create: (exports: Exports, out: number, given: BlendArguments) => number,
+    create: (exports: RuntimeExports, out: number, given: BlendArguments) => number,
   ) {
     const { positions, dimension, weights } = { ...SKIN_DEFAULTS, ...options };
     const vertexCount = countRows(positions, dimension);
@@ -122,15 +123,17 @@ export abstract class BlendedSkin extends Skin {
     super(
       heap,
       { dimension, vertexCount, handleCount },
-      (e, out, [at = 0, weightsAt = 0]) =>
-        create(e, out, { positions: at, count: vertexCount, dimension, weights: weightsAt, handleCount }),
+      (out, [at = 0, weightsAt = 0]) => {
+        const given = { positions: at, count: vertexCount, dimension, weights: weightsAt, handleCount };
+        heap.check((e) => create(e, out, given));
+      },
       (scratch) => [scratch.putF64(positions), scratch.putF64(weights)],
     );
   }
 
   /** Writes the deformed positions, n × dimension, and returns them. */
   deform(out?: Float32Array): Float32Array {
-    return this.move(out, (e, skin, to) => e.hb_skin_deform(skin, to));
+    return this.move(out, (skin, to) => this.heap.check((e) => e.hb_skin_deform(skin, to)));
   }
 }
 

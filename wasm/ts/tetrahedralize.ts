@@ -1,4 +1,4 @@
-import { LAYOUT } from './abi.generated.ts';
+import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
@@ -70,7 +70,7 @@ export class Tetrahedra implements SimplexMesh {
  * const atVertices = solid.sample(weights);   // rows of the dog's own vertices
  * ```
  */
-export function tetrahedralize(heap: Heap, surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
+export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
   const { resolution } = { ...TETRAHEDRALIZE_DEFAULTS, ...options };
   if (!(Number.isInteger(resolution) && resolution >= 4 && resolution <= 256)) {
     throw new HandlebodyError('invalid-option', {

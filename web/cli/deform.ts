@@ -1,5 +1,5 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { type Irbf, load } from '../../wasm/ts/index.ts';
+import { type Irbf, load } from '../../wasm/ts/runtime.ts';
 import type { SolveReport } from '../../wasm/ts/types.ts';
 import { detachBody, HANDLEBODY_BODY, readBody, readMesh } from '../assets/index.ts';
 import { type Options, theFile, theOutput, usageError, WRITES } from './arguments.ts';

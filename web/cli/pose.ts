@@ -1,6 +1,6 @@
 import type { Document, Mesh } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { load } from '../../wasm/ts/index.ts';
+import { load } from '../../wasm/ts/runtime.ts';
 import { type PoseSpaceData, readPoseSpaces } from '../assets/index.ts';
 import { type Options, theFile, theOutput, usageError, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';

@@ -1,5 +1,5 @@
 import { type Object3D, Vector3 } from 'three';
-import type { Handle } from '../../wasm/ts/index.ts';
+import type { Handle } from '../../wasm/ts/runtime.ts';
 import type { Step, View } from '../stage/view.ts';
 import type { DeformedGeometry } from '../three/geometry.ts';
 import { HandleOverlay } from '../three/handles.ts';

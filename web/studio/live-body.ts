@@ -1,5 +1,5 @@
 import { Vector3 } from 'three';
-import type { BodyData, Handle, Handlebody, Irbf } from '../../wasm/ts/index.ts';
+import type { BodyData, Handle, HandlebodyRuntime, Irbf } from '../../wasm/ts/runtime.ts';
 
 /** Numbers a handle has in the solver's targets: position, quaternion, scale. */
 const TARGET = 10;
@@ -34,7 +34,7 @@ export class LiveBody {
   /** Targets of the last solution. */
   #good = new Float64Array();
 
-  constructor(solver: Handlebody, data: BodyData, restNormals: Float32Array | undefined) {
+  constructor(solver: HandlebodyRuntime, data: BodyData, restNormals: Float32Array | undefined) {
     this.data = data;
     this.positions = new Float32Array(data.mesh.positions);
     this.normals = new Float32Array(data.mesh.positions.length);

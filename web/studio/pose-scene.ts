@@ -1,5 +1,5 @@
 import type { Mesh, Object3D } from 'three';
-import type { Handlebody, PoseSpace } from '../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
 import { reducedMotion } from '../ui/motion.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
@@ -9,7 +9,7 @@ import type { StudioScene } from './scene.ts';
 
 interface PoseSceneOptions {
   readonly view: View;
-  readonly solver: Handlebody;
+  readonly solver: HandlebodyRuntime;
   readonly object: Object3D;
   readonly space: PoseSpaceSource;
   readonly title: string;

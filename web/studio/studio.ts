@@ -1,4 +1,4 @@
-import type { BakeWarning, BodyData, Handle, Handlebody } from '../../wasm/ts/index.ts';
+import type { BakeWarning, BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
 import { byId } from '../ui/dom.ts';
@@ -26,7 +26,7 @@ const OWN_RESOLUTION = 64;
 
 interface StudioParts {
   readonly view: View;
-  readonly solver: Promise<Handlebody>;
+  readonly solver: Promise<HandlebodyRuntime>;
   readonly messages: Messages;
   readonly progress: Progress;
   readonly note: Note;

@@ -1,4 +1,4 @@
-import type { Handlebody, Handle as SolverHandle } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, Handle as SolverHandle } from '../../../wasm/ts/runtime.ts';
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import { extentOf } from '../../models/shape.ts';
 import { slab } from '../../models/slab.ts';
@@ -25,7 +25,7 @@ interface BakeListener {
  * slab's middle, and so do the places that are asked for.
  */
 export async function bakeSlab(
-  hb: Handlebody,
+  hb: HandlebodyRuntime,
   mesh: PlaneMesh,
   kind: DistanceKind,
   listener: BakeListener,

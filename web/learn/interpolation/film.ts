@@ -1,4 +1,4 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import { h, svg } from '../../ui/dom.ts';
 import type { Experiment } from './experiment.ts';
 import { dataOf, kindOf } from './interpolants.ts';
@@ -13,7 +13,7 @@ export class Film {
   readonly element = h('ul', { class: 'film' });
   readonly #links = new Map<string, HTMLAnchorElement>();
 
-  constructor(hb: Handlebody) {
+  constructor(hb: HandlebodyRuntime) {
     const waiting: (() => void)[] = [];
     for (const preset of PRESETS) {
       const experiment = preset.make();
@@ -50,7 +50,7 @@ function whenIdle(run: () => void): void {
 }
 
 /** Curves through the points; in the plane, curves along a section through the middle. */
-function draw(hb: Handlebody, experiment: Experiment, picture: SVGSVGElement): void {
+function draw(hb: HandlebodyRuntime, experiment: Experiment, picture: SVGSVGElement): void {
   const { dimension, frame, range, points, values } = experiment;
   const [left, right, bottom, top] = frame;
   const [low, high] = dimension === 1 ? [bottom, top] : range;

@@ -1,4 +1,4 @@
-import type { Handlebody, Interpolant, Rbf, RbfReport } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, Interpolant, Rbf, RbfReport } from '../../../wasm/ts/runtime.ts';
 import type { Model } from './experiment.ts';
 import { kindOf, labelOf } from './interpolants.ts';
 import type { Data, Label } from './kind.ts';
@@ -37,7 +37,7 @@ export class Fit {
     return this.model.kind === 'rbf' ? (this.#interpolant as Rbf | undefined) : undefined;
   }
 
-  solve(hb: Handlebody, data: Data): void {
+  solve(hb: HandlebodyRuntime, data: Data): void {
     const { kind, settings } = this.model;
     this.label = labelOf(this.model, data.dimension);
     let made: Interpolant | undefined;

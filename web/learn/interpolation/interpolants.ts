@@ -1,4 +1,4 @@
-import type { MovingWeight } from '../../../wasm/ts/index.ts';
+import type { MovingWeight } from '../../../wasm/ts/runtime.ts';
 import { type Experiment, type Model, newModel, type Settings } from './experiment.ts';
 import type { Data, Kind, Label } from './kind.ts';
 import { type Choice, complete } from './parameter.ts';

@@ -1,4 +1,4 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { Fit } from './fit.ts';
 import type { Data } from './kind.ts';
 import { rbfOptions } from './rbf-kind.ts';
@@ -17,7 +17,7 @@ const FORMULAS: Record<string, (s: number, order: number) => number> = {
  * The weighted kernels of a fit on a line, centers × places, whose sum (and the polynomial's) is its curve (Fig. 12). Nothing for fits that
  * are no such sum.
  */
-export function weightedKernels(hb: Handlebody, fit: Fit, data: Data, xs: Float64Array): Float64Array | undefined {
+export function weightedKernels(hb: HandlebodyRuntime, fit: Fit, data: Data, xs: Float64Array): Float64Array | undefined {
   const { verdict, rbf, model } = fit;
   const { settings } = model;
   if (!rbf || !verdict?.coefficients || !verdict.report || data.dimension !== 1 || settings.normalized) return undefined;

@@ -1,4 +1,4 @@
-import type { Handlebody, Interpolant } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, Interpolant } from '../../../wasm/ts/runtime.ts';
 import type { Settings } from './experiment.ts';
 import type { Parameter } from './parameter.ts';
 
@@ -21,5 +21,5 @@ export interface Kind {
   readonly dimensions: readonly (1 | 2)[];
   readonly parameters: readonly Parameter[];
   label(settings: Settings, dimension: 1 | 2): Label;
-  make(hb: Handlebody, data: Data, settings: Settings): Interpolant;
+  make(hb: HandlebodyRuntime, data: Data, settings: Settings): Interpolant;
 }

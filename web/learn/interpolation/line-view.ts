@@ -1,4 +1,4 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import { h, svg } from '../../ui/dom.ts';
 import { Chart, type Curve, match } from './chart.ts';
 import type { Experiment } from './experiment.ts';
@@ -12,7 +12,7 @@ import type { Picture, View } from './view.ts';
 /** Points on a line, their interpolants as curves through them. */
 export class LineView implements View {
   readonly element: HTMLElement;
-  readonly #hb: Handlebody;
+  readonly #hb: HandlebodyRuntime;
   readonly #chart: Chart;
   readonly #handles: Handles;
   readonly #kernels = svg('g', { class: 'kernels' });
@@ -24,7 +24,7 @@ export class LineView implements View {
   readonly #shares = new Map<number, Float64Array>();
 
   /** `resized` asks for another drawing. */
-  constructor(hb: Handlebody, actions: PointActions, resized: () => void) {
+  constructor(hb: HandlebodyRuntime, actions: PointActions, resized: () => void) {
     this.#hb = hb;
     this.#chart = new Chart(true, resized);
     this.#weights = new Chart(true, resized);

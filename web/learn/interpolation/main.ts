@@ -1,4 +1,4 @@
-import { load } from '../../../wasm/ts/index.ts';
+import { load } from '../../../wasm/ts/runtime.ts';
 import { byId } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import { Page } from './page.ts';

@@ -1,4 +1,4 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { Caption } from './caption.ts';
 import { copyOf, type Experiment } from './experiment.ts';
@@ -29,7 +29,7 @@ export class Page {
   /** The experiment of the other dimension, as it was left. */
   readonly #left = new Map<1 | 2, Experiment>();
 
-  constructor(hb: Handlebody) {
+  constructor(hb: HandlebodyRuntime) {
     const playground = new Playground(hb, {
       stir: () => {
         byId('playground').dataset.rest = 'no';
@@ -101,7 +101,7 @@ export class Page {
   }
 
   /** The plane's part is fetched when somebody goes there. */
-  async #makeView(dimension: 1 | 2, hb: Handlebody): Promise<void> {
+  async #makeView(dimension: 1 | 2, hb: HandlebodyRuntime): Promise<void> {
     const playground = this.#playground;
     const view =
       dimension === 1

@@ -1,4 +1,4 @@
-import type { Handlebody, OutlierReport } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, OutlierReport } from '../../../wasm/ts/runtime.ts';
 import { readable } from '../../ui/dom.ts';
 import { fromAddress, toAddress } from './address.ts';
 import {
@@ -39,7 +39,7 @@ const REST = 350;
 
 /** The experiment and its fits: every change goes through here, and is solved and drawn with the next frame. */
 export class Playground implements PointActions {
-  readonly hb: Handlebody;
+  readonly hb: HandlebodyRuntime;
   experiment: Experiment;
   fits: Fit[] = [];
   view: View | undefined;
@@ -53,7 +53,7 @@ export class Playground implements PointActions {
   #restructured = true;
   #anew = true;
 
-  constructor(hb: Handlebody, audience: Audience) {
+  constructor(hb: HandlebodyRuntime, audience: Audience) {
     this.hb = hb;
     this.#audience = audience;
     this.experiment = fromAddress(location.hash);

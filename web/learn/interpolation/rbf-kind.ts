@@ -1,4 +1,10 @@
-import { type Handlebody, KERNELS, type KernelFunction, type KernelName, type RbfOptions } from '../../../wasm/ts/index.ts';
+import {
+  type HandlebodyRuntime,
+  KERNELS,
+  type KernelFunction,
+  type KernelName,
+  type RbfOptions,
+} from '../../../wasm/ts/runtime.ts';
 import type { Settings } from './experiment.ts';
 import type { Data, Kind } from './kind.ts';
 import type { Parameter } from './parameter.ts';
@@ -183,5 +189,5 @@ export const rbf: Kind = {
     ];
     return { name, detail: details.join(', ') };
   },
-  make: (hb: Handlebody, data, settings) => hb.rbf(rbfOptions(data, settings)),
+  make: (hb: HandlebodyRuntime, data, settings) => hb.rbf(rbfOptions(data, settings)),
 };

@@ -1,4 +1,4 @@
-import type { Handlebody, OutlierReport } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime, OutlierReport } from '../../../wasm/ts/runtime.ts';
 import type { Experiment } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { dataOf } from './interpolants.ts';
@@ -20,7 +20,7 @@ export function summary(experiment: Experiment, fits: readonly Fit[], found: str
 }
 
 /** The points that stand out, by the kernel of the first interpolant that has one. */
-export function searchOutliers(hb: Handlebody, experiment: Experiment, fits: readonly Fit[]): OutlierReport | undefined {
+export function searchOutliers(hb: HandlebodyRuntime, experiment: Experiment, fits: readonly Fit[]): OutlierReport | undefined {
   const { outliers: method } = experiment.show;
   if (method === 'off' || experiment.values.length < 3) return undefined;
   const data = dataOf(experiment);

@@ -1,4 +1,4 @@
-import type { RbfWarning } from '../../../wasm/ts/index.ts';
+import type { RbfWarning } from '../../../wasm/ts/runtime.ts';
 import { h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import type { Settings } from './experiment.ts';

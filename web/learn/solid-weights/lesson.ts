@@ -1,4 +1,4 @@
-import type { DualQuaternion, Handlebody, LinearBlend } from '../../../wasm/ts/index.ts';
+import type { DualQuaternion, HandlebodyRuntime, LinearBlend } from '../../../wasm/ts/runtime.ts';
 import type { View } from '../../stage/view.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { isAbort, type Messages } from '../../ui/messages.ts';
@@ -12,7 +12,7 @@ import { computeWeights, type Method } from './weights.ts';
 
 interface Parts {
   readonly view: View;
-  readonly solver: Promise<Handlebody>;
+  readonly solver: Promise<HandlebodyRuntime>;
   readonly messages: Messages;
   readonly progress: Progress;
 }

@@ -1,4 +1,4 @@
-import { load } from '../../../wasm/ts/index.ts';
+import { load } from '../../../wasm/ts/runtime.ts';
 import { cameraTools, freeTheWheel } from '../../stage/camera-tools.ts';
 import { View } from '../../stage/view.ts';
 import { byId } from '../../ui/dom.ts';

@@ -1,0 +1,96 @@
+import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
+import { DualQuaternion } from './dual-quaternion.ts';
+import type { Heap } from './heap.ts';
+import { Irbf } from './irbf.ts';
+import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
+import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
+import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
+import { findOutliers, type OutlierOptions, type OutlierReport } from './outliers.ts';
+import { PoseSpace, type PoseSpaceOptions } from './pose-space.ts';
+import { Rbf } from './rbf.ts';
+import type { RbfOptions } from './rbf-options.ts';
+import { Shepard, type ShepardOptions } from './shepard.ts';
+import { SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
+import type { SkinOptions } from './skin.ts';
+import { TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
+import type { BodyData, IrbfOptions } from './types.ts';
+
+/**
+ * A solver instance: one wasm module with its memory. Every object that it makes lives in that memory.
+ *
+ * It moves what was baked or weighted elsewhere, and interpolates. What makes bodies and weights is `Handlebody`'s, of the import
+ * "handlebody".
+ */
+export class HandlebodyRuntime {
+  readonly #heap: Heap;
+
+  /** @internal */
+  constructor(heap: Heap) {
+    this.#heap = heap;
+  }
+
+  /** Bytes of memory that the instance holds. */
+  get memory(): number {
+    return this.#heap.byteLength;
+  }
+
+  /** Prepares a baked body for deformation by handles. */
+  irbf(body: BodyData, options: IrbfOptions = {}): Irbf {
+    return new Irbf(this.#heap, body, options);
+  }
+
+  /** Prepares examples in a pose space for interpolation. */
+  poseSpace(options: PoseSpaceOptions): PoseSpace {
+    return new PoseSpace(this.#heap, options);
+  }
+
+  /** Radial basis interpolation of scattered data, or a smooth fit. */
+  rbf(options: RbfOptions): Rbf {
+    return new Rbf(this.#heap, options);
+  }
+
+  /** Points that a radial basis interpolant has to bend for. */
+  findOutliers(options: OutlierOptions): OutlierReport {
+    return findOutliers(this.#heap, options);
+  }
+
+  /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
+  simplexLinear(options: SimplexLinearOptions): SimplexLinear {
+    return new SimplexLinear(this.#heap, options);
+  }
+
+  /** Sibson's natural neighbor interpolation of scattered data in the plane. */
+  naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
+    return new NaturalNeighbor(this.#heap, options);
+  }
+
+  /** Shepard's inverse-distance weighting of scattered data. */
+  shepard(options: ShepardOptions): Shepard {
+    return new Shepard(this.#heap, options);
+  }
+
+  /** Moving least squares of scattered data: at every place a polynomial of its own. */
+  movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
+    return new MovingLeastSquares(this.#heap, options);
+  }
+
+  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
+  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
+    return new DiscreteGreen(this.#heap, options);
+  }
+
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  tensionSpline(options: TensionSplineOptions): TensionSpline {
+    return new TensionSpline(this.#heap, options);
+  }
+
+  /** Linear blend skinning in the plane or in space. */
+  linearBlend(options: LinearBlendOptions): LinearBlend {
+    return new LinearBlend(this.#heap, options);
+  }
+
+  /** Skinning by dual quaternions: a rigid motion at every vertex. */
+  dualQuaternion(options: SkinOptions): DualQuaternion {
+    return new DualQuaternion(this.#heap, options);
+  }
+}

@@ -1,0 +1,13 @@
+import { HandlebodyRuntime } from './handlebody-runtime.ts';
+import { instantiate, type LoadOptions } from './load.ts';
+
+export * from './runtime-api.ts';
+
+/**
+ * Loads the smaller solver from a separate file, as "handlebody/external" does the whole. Without `wasm`, `handlebody.runtime.wasm` is
+ * looked for in the package, where Node and most bundlers find it.
+ */
+export async function load(options: LoadOptions = {}): Promise<HandlebodyRuntime> {
+  const source = options.wasm ?? new URL('../../../wasm/handlebody.runtime.wasm', import.meta.url);
+  return new HandlebodyRuntime(await instantiate('handlebody.runtime.wasm', source, options.signal));
+}
