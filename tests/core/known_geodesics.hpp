@@ -97,6 +97,9 @@ inline std::vector<KnownShape> known_shapes() {
 
 struct Accuracy {
   double mean = 0, largest = 0, bias = 0;
+  double lowest = 0;       // error with its sign: how much too short the shortest is
+  double nine_tenths = 0;  // what nine tenths of the voxels stay within
+  double far = 0;          // largest from half a unit on
 };
 
 /** Relative errors of `measure(source, distances)` over all voxels at least five spacings from the source; sources are half way
@@ -105,7 +108,7 @@ template <typename Measure>
 Accuracy accuracy(const KnownShape& shape, const VoxelDomain& domain, const Measure& measure) {
   std::vector<double> d(domain.size());
   Accuracy result;
-  double count = 0;
+  std::vector<double> errors;
   for (const Vector2& s : shape.sources) {
     const Vector3 source(s[0], s[1], known_layers / 2. * domain.grid().spacing);
     measure(source, d.data());
@@ -113,11 +116,16 @@ Accuracy accuracy(const KnownShape& shape, const VoxelDomain& domain, const Meas
       const Vector3 p = domain.center(v);
       if ((p - source).norm() < 5 * domain.grid().spacing) continue;
       const double error = d[v] / shape.distance(source, p) - 1;
-      result.mean += std::abs(error), result.bias += error, ++count;
-      result.largest = std::max(result.largest, std::abs(error));
+      errors.push_back(std::abs(error));
+      result.mean += std::abs(error), result.bias += error;
+      result.lowest = std::min(result.lowest, error);
+      if ((p - source).norm() > .5) result.far = std::max(result.far, std::abs(error));
     }
   }
+  std::sort(errors.begin(), errors.end());
+  const auto count = static_cast<double>(errors.size());
   result.mean /= count, result.bias /= count;
+  result.nine_tenths = errors[errors.size() * 9 / 10], result.largest = errors.back();
   return result;
 }
 

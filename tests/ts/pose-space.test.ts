@@ -253,11 +253,11 @@ test('equal shapes at one place are one example, and which is said', () => {
 
 test('what is disposed gives its memory back', async () => {
   const own = await load();
-  // Shapes of 2 MB: twenty that stayed would take 40 MB, and memory begins with 16.
-  const large = examples.map((example) => ({ ...example, shape: new Float64Array(32_000) }));
-  const round = () => own.poseSpace({ dimensions, examples: large }).dispose();
+  // Each holds a matrix of 150 × 150: 150 that stayed would take 27 MB, and memory begins with 16.
+  const many = Array.from({ length: 150 }, (_, k) => ({ name: `${k}`, at: [Math.cos(k), Math.sin(k * k)], shape: [k] }));
+  const round = () => own.poseSpace({ dimensions, examples: many }).dispose();
   round();
   const settled = own.memory;
-  for (let i = 0; i < 20; i++) round();
+  for (let i = 0; i < 150; i++) round();
   expect(own.memory).toBe(settled);
 });
