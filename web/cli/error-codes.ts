@@ -1,5 +1,5 @@
 /** What the command refuses besides what its files and its solver do. */
-export interface CommandErrorCodes {
+interface CommandErrorCodes {
   /** Arguments that cannot be meant. */
   usage: true;
   /** The output file cannot be written. */
@@ -15,3 +15,6 @@ export interface CommandErrorCodes {
 declare module '../../wasm/ts/errors.ts' {
   interface ErrorCodes extends CommandErrorCodes {}
 }
+
+// A module, so that its declarations are merged: it exports nothing.
+export {};

@@ -1,5 +1,5 @@
 /** What makes no shape of an outline or a picture. */
-export interface ShapeErrorCodes {
+interface ShapeErrorCodes {
   /** Fewer than three points in a ring. */
   'outline-too-few': true;
   /** A coordinate that is not a finite number. */
@@ -19,3 +19,6 @@ export interface ShapeErrorCodes {
 declare module '../../wasm/ts/errors.ts' {
   interface ErrorCodes extends ShapeErrorCodes {}
 }
+
+// A module, so that its declarations are merged: it exports nothing.
+export {};
