@@ -7,7 +7,7 @@ import { type Handlebody, HandlebodyError, load } from '../../wasm/ts/index.ts';
 import { boxMesh } from './support/shapes.ts';
 
 /** A linear function's value, by fitting it: whether the solver solves. */
-function valueOf(hb: Handlebody): number {
+function fittedAtThree(hb: Handlebody): number {
   using rbf = hb.rbf({ dimension: 1, points: [0, 1, 4], values: [1, 3, 9], degree: 1 });
   return rbf.evaluate([3])[0] ?? Number.NaN;
 }
@@ -19,9 +19,9 @@ describe('load', () => {
     const bytes = readFileSync(wasmFile);
     for (const wasm of [undefined, bytes, await WebAssembly.compile(bytes), wasmFile]) {
       const hb = await load(wasm ? { wasm } : {});
-      expect(valueOf(hb)).toBeCloseTo(7, 12);
+      expect(fittedAtThree(hb)).toBeCloseTo(7, 12);
     }
-    expect(valueOf(await loadExternal({ wasm: wasmFile }))).toBeCloseTo(7, 12);
+    expect(fittedAtThree(await loadExternal({ wasm: wasmFile }))).toBeCloseTo(7, 12);
   });
 
   it('carries exactly the committed wasm inside', async () => {
