@@ -119,8 +119,8 @@ describe('exit codes', () => {
     expect(JSON.parse(stdout).error).toMatchObject({ code: 'handle-out-of-range', culprit: { kind: 'handle', index: 1 } });
   });
 
-  it('are all in the help and in the README', () => {
-    const readme = readFileSync(`${root}/README.md`, 'utf8');
+  it('are all in the help and on the page of the command', () => {
+    const readme = readFileSync(`${root}/web/cli/README.md`, 'utf8');
     for (const code of Object.values(EXIT)) {
       expect(HELP['']).toMatch(new RegExp(`^ {2}${code} {2}\\S`, 'm'));
       expect(readme).toMatch(new RegExp(`^\\| ${code} \\|`, 'm'));

@@ -134,10 +134,8 @@ describe('what both links do', () => {
     expect(bits(make(hb).evaluate(queries)).equals(bits(make(other).evaluate(queries)))).toBe(true);
   });
 
-  it('a discrete Green function, outliers and a pose space give the same bits', () => {
+  it('outliers and a pose space give the same bits', () => {
     const results = (solver: runtime.HandlebodyRuntime) => {
-      const green = solver.discreteGreen({ size: 20, samples: [2, 9, 15], values: [1, 3, 2] });
-      const curve = green.solveGrid();
       const found = solver.findOutliers({ ...data, kernel: 'thin-plate', degree: 1 });
       const examples = [
         { name: 'calm', at: [0, 0], shape: [0, 1] },
@@ -146,17 +144,14 @@ describe('what both links do', () => {
       ];
       const space = solver.poseSpace({ dimensions: ['valence', 'arousal'], examples });
       return {
-        curve,
-        at: [curve[2], curve[9], curve[15]],
         found,
         weights: space.weights([0.3, 0.4]),
         happy: space.evaluate([1, 0]),
       };
     };
     const [here, there] = [results(hb), results(other)];
-    for (const [value, wanted] of [...here.at, ...here.happy].map((x, i) => [x, [1, 3, 2, 1, 0][i]])) {
-      expect(value).toBeCloseTo(wanted as number, 6);
-    }
+    expect(here.happy[0]).toBeCloseTo(1, 6);
+    expect(here.happy[1]).toBeCloseTo(0, 6);
     expect(here).toEqual(there);
   });
 
@@ -186,6 +181,8 @@ describe('what the runtime leaves out', () => {
     expect(hb.biharmonicWeights).toBeUndefined();
     // @ts-expect-error nor measure them
     expect(hb.measureWeights).toBeUndefined();
+    // @ts-expect-error nor find the kernels of a grid's equations
+    expect(hb.discreteGreen).toBeUndefined();
     // @ts-expect-error nor minimize energies
     expect(hb.minimizeEnergy).toBeUndefined();
     // The whole serves wherever the runtime does.

@@ -339,21 +339,21 @@ typedef struct hb_discrete_green hb_discrete_green;
 
 /* The smoothest curve by D through `samples` (sample_count different numbers below size) with `values`. Fails with INVALID_OPTION,
  * INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
-HB_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
+HB_WHOLE_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
 
 /* Rows of D, and the dimension of the null space of DᵀD. */
-HB_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
+HB_WHOLE_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
 
 /* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its inverse or generalized inverse. */
-HB_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
+HB_WHOLE_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
 
 /* The curve (size), by elimination on the grid. */
-HB_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
+HB_WHOLE_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
 
 /* The curve (size) by radial functions, and their weights (sample_count + nullity) unless NULL: Green's functions at the samples first. */
-HB_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
+HB_WHOLE_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
 
-HB_API void hb_discrete_green_free(hb_discrete_green* green);
+HB_WHOLE_API void hb_discrete_green_free(hb_discrete_green* green);
 
 /* Natural neighbor interpolation (Sibson) of points in the plane: INVALID_SHAPE for another dimension than 2. `outside` the convex hull
  * 0 gives the value at the nearest point of the hull, 1 NaN. Gradients are NaN at the points. */

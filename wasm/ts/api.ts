@@ -10,6 +10,13 @@ export {
   type Island,
   type SparseRows,
 } from './biharmonic-weights.ts';
+export {
+  DISCRETE_GREEN_DEFAULTS,
+  DiscreteGreen,
+  type DiscreteGreenOptions,
+  type GridBoundary,
+  type GridMatrix,
+} from './discrete-green.ts';
 export type { Handlebody } from './handlebody.ts';
 export { WEIGHT_REQUIREMENTS, type WeightMeasures } from './measure-weights.ts';
 export {

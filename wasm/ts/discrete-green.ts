@@ -1,3 +1,4 @@
+import type { Exports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 
@@ -49,13 +50,13 @@ export class DiscreteGreen {
   /** Dimension of the null space of DᵀD: 0 where it is regular. */
   readonly nullity: number;
 
-  readonly #heap: Heap;
+  readonly #heap: Heap<Exports>;
   readonly #rows: number;
   readonly #matrices = new Map<number, GridMatrix>();
   #handle: number;
 
   /** @internal Use `Handlebody.discreteGreen`. */
-  constructor(heap: Heap, options: DiscreteGreenOptions) {
+  constructor(heap: Heap<Exports>, options: DiscreteGreenOptions) {
     const { size, order, boundary, samples, values } = { ...DISCRETE_GREEN_DEFAULTS, ...options };
     checkOptions(size, order, boundary, samples, values);
     const made = heap.scope((scratch) => {

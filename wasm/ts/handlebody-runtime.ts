@@ -1,4 +1,3 @@
-import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { DualQuaternion } from './dual-quaternion.ts';
 import type { Heap } from './heap.ts';
 import { Irbf } from './irbf.ts';
@@ -72,11 +71,6 @@ export class HandlebodyRuntime {
   /** Moving least squares of scattered data: at every place a polynomial of its own. */
   movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
     return new MovingLeastSquares(this.#heap, options);
-  }
-
-  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
-  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
-    return new DiscreteGreen(this.#heap, options);
   }
 
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */

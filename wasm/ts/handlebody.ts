@@ -1,6 +1,7 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
 import { BiharmonicWeights, type BiharmonicWeightsOptions } from './biharmonic-weights.ts';
+import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyRuntime } from './handlebody-runtime.ts';
 import type { Heap } from './heap.ts';
 import { measureWeights, type WeightMeasures } from './measure-weights.ts';
@@ -26,6 +27,11 @@ export class Handlebody extends HandlebodyRuntime {
    */
   bake(shape: BakeShape, options: BakeOptions = {}): Promise<BodyData> {
     return bake(this.#heap, shape, options);
+  }
+
+  /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
+  discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
+    return new DiscreteGreen(this.#heap, options);
   }
 
   /** Fills a surface with tetrahedra, on which weights are those of a solid. */

@@ -1,11 +1,4 @@
 /** What every entry exports besides its `load`. */
-export {
-  DISCRETE_GREEN_DEFAULTS,
-  DiscreteGreen,
-  type DiscreteGreenOptions,
-  type GridBoundary,
-  type GridMatrix,
-} from './discrete-green.ts';
 export { DualQuaternion } from './dual-quaternion.ts';
 export {
   type Culprit,

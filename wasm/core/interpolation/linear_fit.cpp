@@ -39,8 +39,8 @@ class SaddleFit final : public LinearFit {
     system.topRightCorner(n, tail) = system.bottomLeftCorner(tail, n).transpose();
     system.bottomRightCorner(tail, tail).setZero();
     system.transposeInPlace();
-    norm_ = one_norm(system);
     lu_.emplace(std::move(system));
+    norm_ = lu_->norm();
     condition_ = or_infinite(1 / lu_->rcond());
   }
 
@@ -63,7 +63,7 @@ class SaddleFit final : public LinearFit {
  *   [ Tᵀ    0    0 ] [d]
  *
  *  of which only B₂₂ takes a factorization: Cholesky's. */
-class DefiniteFit final : public LinearFit, private SymmetricInverse {
+class DefiniteFit final : public LinearFit, private Inverse {
  public:
   DefiniteFit(RadialBasis& basis, const Matrix& points, double smoothing)
       : tail_(basis.tail()), sign_(basis.kernel().sign()), side_(tail_at(basis, basis.to_inner(points), tail_)) {

@@ -9,6 +9,7 @@
 #include "core/mesh/enclosed_volume.hpp"
 #include "core/numerics/closest_rotation.hpp"
 #include "core/numerics/indices.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 
@@ -158,7 +159,7 @@ std::unique_ptr<FrameKernel> Irbf::make_handle_kernel(const ReducedSystem& syste
     parameters.topLeftCorner(some, 3) = rest_.middleRows(first, some).cast<double>();
     parameters.col(3).setOnes();
     parameters.topRightCorner(some, centers) = psi_.middleRows(first, some).cast<double>();
-    matrix.middleRows(first, some) = (parameters.topRows(some) * system.inverse).cast<float>();
+    matrix.middleRows(first, some) = product(parameters.topRows(some), system.inverse).cast<float>();
   }
   return std::make_unique<FrameKernel>(rest_, matrix, options_.precision);
 }
@@ -269,7 +270,7 @@ Result<Points> Irbf::evaluate(const ConstPoints& points) const {
   for (Index i = 0; i < solver.rows(); ++i) samples.add(body_.domain, solver.row(i).transpose());
   Matrix phi = Matrix::Zero(solver.rows(), basis_->size());
   if (auto done = basis_->evaluate<double>(samples, phi); !done) return done.error();
-  Points displacements = solver * linear_.transpose() + phi * coefficients_;
+  Points displacements = solver * linear_.transpose() + product(phi, coefficients_);
   displacements.rowwise() += translation_.transpose();
   Points deformed = points + body_.normalization.diagonal * displacements;
   return deformed;

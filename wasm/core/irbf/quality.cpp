@@ -8,6 +8,7 @@
 
 #include "core/mesh/kuhn_tetrahedra.hpp"
 #include "core/numerics/closest_rotation.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 
@@ -134,12 +135,13 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
 }
 
 Quality VoxelQuality::measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal) {
+  const MatrixXd columns = coefficients;
   for (Index first = 0; first < rest_.rows(); first += corners_at_once) {
     const Index some = std::min(corners_at_once, rest_.rows() - first);
     auto moved = deformed_.middleRows(first, some);
     moved = rest_.middleRows(first, some) * (Matrix3::Identity() + linear).transpose();
     moved.rowwise() += translation.transpose();
-    moved += psi_.middleRows(first, some).cast<double>() * coefficients;
+    moved += product(psi_.middleRows(first, some).cast<double>(), columns);
   }
   Quality quality = measure_tetrahedra(tetrahedra_, rest_, deformed_);
   const double cube = diagonal * diagonal * diagonal;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/numerics/decompositions.hpp"
+#include "core/numerics/products.hpp"
 
 namespace handlebody {
 
@@ -36,7 +37,7 @@ Result<ReducedSystem> make_reduced_system(const MatrixXd& edge_rows, const Matri
 
   MatrixXd multipliers;  // ν + μ²T = Q⁻¹ [−S M⁻¹Z₁ᵀ  I] [Γ₁; T] with Q = S M⁻¹ Sᵀ
   if (hard) {
-    const MatrixXd products = rows * system.inverse;  // S M⁻¹ [Z₁ᵀ Sᵀ]
+    const MatrixXd products = product(rows, system.inverse);  // S M⁻¹ [Z₁ᵀ Sᵀ]
     const Cholesky schur(products.rightCols(constraints));
     if (!schur.succeeded() || !(1 / schur.rcond() < most_condition))
       return singular("The hard constraints repeat each other, or there are more of them than the centers can meet.");
@@ -45,19 +46,19 @@ Result<ReducedSystem> make_reduced_system(const MatrixXd& edge_rows, const Matri
     schur.solve_in_place(multipliers);
     const MatrixXd response = system.inverse.rightCols(constraints);  // M⁻¹ Sᵀ
     system.inverse.rightCols(constraints).setZero();
-    system.inverse.noalias() += response * multipliers;
+    system.inverse += product(response, multipliers);
   } else {
     system.inverse.rightCols(constraints) *= mu;
   }
 
   system.hat.resize(edges + constraints, edges + constraints);
-  system.hat.topRows(edges).noalias() = edge_rows * system.inverse;
+  system.hat.topRows(edges) = product(edge_rows, system.inverse);
   if (hard) {
     // The energy is Γ₁·(Γ₁ − Z₁Π) + T·ν with the multipliers ν.
     system.hat.bottomRows(constraints) = -multipliers;
     system.hat.diagonal().tail(constraints).array() += 1 + mu * mu;
   } else {
-    system.hat.bottomRows(constraints).noalias() = mu * rows * system.inverse;
+    system.hat.bottomRows(constraints) = mu * product(rows, system.inverse);
   }
   return system;
 }

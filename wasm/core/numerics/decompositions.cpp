@@ -3,26 +3,36 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace handlebody {
 
 // ---- Cholesky ---------------------------------------------------------------------------------------------------------------
 
-Cholesky::Cholesky(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a))) {
+Cholesky::Cholesky(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a))), sums_(factor_->rows()) {
+  set_norm(*factor_);
   Eigen::Ref<MatrixXd> place(*factor_);
   llt_ = std::make_unique<Eigen::LLT<Eigen::Ref<MatrixXd>>>(place);
   // Whatever is not finite below the diagonal reaches it, and what is above is not read.
   succeeded_ = llt_->info() == Eigen::Success && factor_->diagonal().allFinite();
 }
 
-void Cholesky::compute(const MatrixXd& a) {
-  llt_->compute(a);
-  succeeded_ = llt_->info() == Eigen::Success && factor_->allFinite();
+/** From the lower triangle. */
+void Cholesky::set_norm(const MatrixXd& a) {
+  sums_.setZero();
+  for (Index j = 0; j < a.cols(); ++j) {
+    const auto below = a.col(j).tail(a.rows() - 1 - j).cwiseAbs();
+    sums_[j] += std::abs(a(j, j)) + below.sum();
+    sums_.tail(a.rows() - 1 - j) += below;
+  }
+  norm_ = sums_.size() == 0 ? 0 : sums_.maxCoeff<Eigen::PropagateNaN>();
 }
 
-double Cholesky::rcond() const {
-  return llt_->rcond();
+void Cholesky::compute(const MatrixXd& a) {
+  set_norm(a);
+  llt_->compute(a);
+  succeeded_ = llt_->info() == Eigen::Success && factor_->allFinite();
 }
 
 void Cholesky::solve_in_place(Vector& x) const {
@@ -35,39 +45,46 @@ void Cholesky::solve_in_place(MatrixXd& b) const {
 
 // ---- LU ---------------------------------------------------------------------------------------------------------------------
 
-Lu::Lu(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a))) {
+Lu::Lu(MatrixXd a) : norm_(one_norm(a)), factor_(std::make_unique<MatrixXd>(std::move(a))) {
   Eigen::Ref<MatrixXd> place(*factor_);
   lu_ = std::make_unique<Eigen::PartialPivLU<Eigen::Ref<MatrixXd>>>(place);
 }
 
 double Lu::rcond() const {
-  // Eigen's estimator stumbles over what a zero pivot makes of its solutions.
-  return (factor_->diagonal().array() != 0).all() ? lu_->rcond() : 0;
-}
-
-Vector Lu::solve(const Vector& b) const {
-  return lu_->solve(b);
+  // The estimator stumbles over what a zero pivot makes of its solutions.
+  return (factor_->diagonal().array() != 0).all() ? 1 / (norm_ * inverse_norm_estimate(*this)) : 0;
 }
 
 MatrixXd Lu::solve(const MatrixXd& b) const {
   return lu_->solve(b);
 }
 
+void Lu::apply(Vector& x) const {
+  x = solve(MatrixXd(x));
+}
+
+void Lu::apply_transposed(Vector& x) const {
+  const auto factor = factor_->transpose();
+  factor.triangularView<Eigen::Lower>().solveInPlace(x);
+  factor.triangularView<Eigen::UnitUpper>().solveInPlace(x);
+  x = lu_->permutationP().transpose() * x;
+}
+
 // ---- QR ---------------------------------------------------------------------------------------------------------------------
 
 namespace {
 
-/** R as Eigen's estimator of condition numbers wants a decomposition: with solutions of R and of its transpose. */
-struct Triangle {
-  using MatrixType = MatrixXd;
-  using Scalar = double;
-  using RealScalar = double;
+/** Of R. */
+class TriangleInverse final : public Inverse {
+ public:
+  explicit TriangleInverse(const Qr& qr) : qr_(qr) {}
 
-  const MatrixXd& r;
+  Index rows() const override { return qr_.columns(); }
+  void apply(Vector& x) const override { qr_.solve_r(x); }
+  void apply_transposed(Vector& x) const override { qr_.solve_r_transposed(x); }
 
-  Index rows() const { return r.rows(); }
-  Vector solve(const Vector& b) const { return r.triangularView<Eigen::Upper>().solve(b); }
-  auto adjoint() const { return r.transpose().triangularView<Eigen::Lower>(); }
+ private:
+  const Qr& qr_;
 };
 
 }  // namespace
@@ -138,7 +155,7 @@ MatrixXd Qr::solve(MatrixXd b) const {
 double Qr::rcond() const {
   const MatrixXd upper = r();
   if (!(upper.diagonal().array() != 0).all()) return 0;
-  return Eigen::internal::rcond_estimate_helper(one_norm(upper), Triangle{upper});
+  return 1 / (one_norm(upper) * inverse_norm_estimate(TriangleInverse(*this)));
 }
 
 ColumnSpan column_span(MatrixXd a) {
@@ -164,20 +181,24 @@ struct Solver {
   using Scalar = double;
   using RealScalar = double;
 
-  const SymmetricInverse& inverse;
+  const Inverse& inverse;
+  bool transposed = false;
 
   Index rows() const { return inverse.rows(); }
   Index cols() const { return inverse.rows(); }
-  const Solver& adjoint() const { return *this; }
+  Solver adjoint() const { return {inverse, !transposed}; }
   Vector solve(Vector x) const {
-    inverse.apply(x);
+    if (transposed)
+      inverse.apply_transposed(x);
+    else
+      inverse.apply(x);
     return x;
   }
 };
 
 }  // namespace
 
-double inverse_norm_estimate(const SymmetricInverse& inverse) {
+double inverse_norm_estimate(const Inverse& inverse) {
   return Eigen::internal::rcond_invmatrix_L1_norm_estimate(Solver{inverse});
 }
 

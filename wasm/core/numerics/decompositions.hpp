@@ -10,8 +10,26 @@
 
 namespace handlebody {
 
+/** The inverse of a matrix, known by what it does to a vector. */
+class Inverse {
+ public:
+  virtual Index rows() const = 0;
+  virtual void apply(Vector& x) const = 0;                      // x ← A⁻¹ x
+  virtual void apply_transposed(Vector& x) const { apply(x); }  // x ← A⁻ᵀ x, the same of a symmetric matrix
+
+ protected:
+  ~Inverse() = default;
+};
+
+/** ‖A⁻¹‖₁ or a little less, rarely by more than a factor of three, from a handful of products (Hager 1984; Higham, ACM TOMS 14,
+ *  1988). Eigen's estimator, which its decompositions' rcond() would compile once for each of them: 4 kB gzipped in all. */
+double inverse_norm_estimate(const Inverse& inverse);
+
+/** ‖A‖₁, the largest sum of the absolute values of a column; 0 of a matrix without any, NaN where any number is. */
+double one_norm(const Eigen::Ref<const MatrixXd>& a);
+
 /** A = L Lᵀ of a symmetric positive definite matrix (n×n), of which the lower triangle is read. Eigen::LLT. */
-class Cholesky {
+class Cholesky final : private Inverse {
  public:
   explicit Cholesky(MatrixXd a);
 
@@ -22,41 +40,52 @@ class Cholesky {
    * may be called then. */
   bool succeeded() const { return succeeded_; }
 
-  Index rows() const { return factor_->rows(); }
+  Index rows() const override { return factor_->rows(); }
 
   /** L in the lower triangle; the upper one is A's. */
   const MatrixXd& factor() const { return *factor_; }
 
   /** Estimated reciprocal of the 1-norm condition number; 0 where that is beyond double precision. */
-  double rcond() const;
+  double rcond() const { return 1 / (norm_ * inverse_norm_estimate(*this)); }
 
   /** x ← A⁻¹ x (n), without allocating; B ← A⁻¹ B (n×m). */
   void solve_in_place(Vector& x) const;
   void solve_in_place(MatrixXd& b) const;
 
  private:
+  void apply(Vector& x) const override { solve_in_place(x); }
+  void set_norm(const MatrixXd& a);
+
   // On the heap, since the decomposition refers to the matrix, and both move together.
   std::unique_ptr<MatrixXd> factor_;
   std::unique_ptr<Eigen::LLT<Eigen::Ref<MatrixXd>>> llt_;
+  Vector sums_;      // of the absolute values in each of A's columns
+  double norm_ = 0;  // ‖A‖₁
   bool succeeded_ = false;
 };
 
 /** P A = L U of a square matrix (n×n) with partial pivoting. A singular matrix passes, and gives numbers that are not finite later
  * on. Eigen::PartialPivLU. */
-class Lu {
+class Lu final : private Inverse {
  public:
   explicit Lu(MatrixXd a);
 
-  Index rows() const { return factor_->rows(); }
+  Index rows() const override { return factor_->rows(); }
+
+  /** ‖A‖₁ */
+  double norm() const { return norm_; }
 
   /** As of Cholesky. */
   double rcond() const;
 
-  /** A⁻¹ b (n); A⁻¹ B (n×m). */
-  Vector solve(const Vector& b) const;
+  /** A⁻¹ B (n×m). */
   MatrixXd solve(const MatrixXd& b) const;
 
  private:
+  void apply(Vector& x) const override;
+  void apply_transposed(Vector& x) const override;
+
+  double norm_;  // before `factor_`, which takes the matrix
   std::unique_ptr<MatrixXd> factor_;
   std::unique_ptr<Eigen::PartialPivLU<Eigen::Ref<MatrixXd>>> lu_;
 };
@@ -106,23 +135,6 @@ struct ColumnSpan {
 };
 
 ColumnSpan column_span(MatrixXd a);
-
-/** ‖A‖₁, the largest sum of the absolute values of a column; 0 of a matrix without any, NaN where any number is. */
-double one_norm(const Eigen::Ref<const MatrixXd>& a);
-
-/** A symmetric matrix's inverse that is known by what it does to a vector. */
-class SymmetricInverse {
- public:
-  virtual Index rows() const = 0;
-  virtual void apply(Vector& x) const = 0;  // x ← A⁻¹ x
-
- protected:
-  ~SymmetricInverse() = default;
-};
-
-/** ‖A⁻¹‖₁ or a little less, rarely by more than a factor of three, from a handful of products (Hager 1984; Higham, ACM TOMS 14,
- * 1988). Eigen's estimator of condition numbers, for what is not one of its decompositions. */
-double inverse_norm_estimate(const SymmetricInverse& inverse);
 
 /** A = V diag(λ) Vᵀ of a symmetric matrix (n×n), of which the lower triangle is read: λ ascending, V's columns orthonormal.
  *  Eigen::SelfAdjointEigenSolver. */
