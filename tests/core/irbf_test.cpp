@@ -103,8 +103,7 @@ TEST_CASE("a bent bar reaches its anchors and keeps its volume") {
   const auto report = irbf->solve({300, 1e-7});
   REQUIRE(report);
   CHECK(report->anchor_error < 1e-3 * body.normalization.diagonal);
-  const double ratio =
-      enclosed_volume(deformed(*irbf), body.triangles) / enclosed_volume(body.positions, body.triangles);
+  const double ratio = enclosed_volume(deformed(*irbf), body.triangles) / enclosed_volume(body.positions, body.triangles);
   CHECK(ratio > 0.95);
   CHECK(ratio < 1.05);
 }

@@ -1,7 +1,7 @@
 // Kernels of the caller's: functions in JavaScript, known by a number and called through one imported function, hb_host_kernel.
 //
-// Rejected: the function table, which cannot grow from outside in a standalone module; tables of distances out and of values in, which
-// every feature would have to know of.
+// Rejected: the function table, which cannot grow from outside in a standalone module; tables of distances out and of values in,
+// which every feature would have to know of.
 #pragma once
 
 #include <cstdint>

@@ -96,7 +96,7 @@ void HeatDistance::assemble() {
   laplacian.finalize();
   heat_matrix_ = heat_time * laplacian;
   heat_matrix_.diagonal() = heat_diagonal;
-  poisson_matrix_ = std::move(laplacian);
+  poisson_matrix_.swap(laplacian);
   poisson_matrix_.diagonal() = poisson_diagonal;
 }
 

@@ -1,8 +1,8 @@
 // The per-frame product: L x + t + M c for every vertex (paper 001, eq. (13)), in 16-bit fixed point or in float, the reference.
 //
-// Rejected: tiles of 16 vertices, 5% faster natively and 30% slower in wasm, which runs out of registers; low-rank pieces of the matrix,
-// cluster by cluster, which take a third of the multiplications for errors of 1e-4 but twice the time to load, since distances on
-// voxels are not smooth enough.
+// Rejected: tiles of 16 vertices, 5% faster natively and 30% slower in wasm, which runs out of registers; low-rank pieces of the
+// matrix, cluster by cluster, which take a third of the multiplications for errors of 1e-4 but twice the time to load, since
+// distances on voxels are not smooth enough.
 #pragma once
 
 #include <array>

@@ -4,8 +4,8 @@
 // descend it by steps that bound the curvature by that of hat = 0; slow are the long waves, a limb's spheres turning together,
 // which I − hat hardly resists. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, knows them.
 //
-// Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as long
-// as sixty of them.
+// Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as
+// long as sixty of them.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // Lengths of shortest paths along a triangle mesh, approximately: Dijkstra's method whose wave also crosses triangles (Novotni &
-// Klein 2002). Any triangles will do, without area or obtuse ones too. Lengths are 0.5% too long on average; rejected: the heat method along the surface, 1 to 3.5%.
+// Klein 2002). Any triangles will do, without area or obtuse ones too. Lengths are 0.5% too long on average; rejected: the heat
+// method along the surface, 1 to 3.5%.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Logarithms and exponentials of many numbers at a time, which the C library's functions, one number a call, take most of a
 // kernel's time for. Without branches and tables, so that compilers vectorize them.
 //
-// Rejected: Eigen's packets, as exact (2.2e-16) but slower: array().log() takes 2.4 × the time in wasm and 1.4 × natively, array().exp()
-// 2.5 × and 1.1 × (4,096 numbers). elementary_test.cpp compares with them.
+// Rejected: Eigen's packets, as exact (2.2e-16) but slower: array().log() takes 2.4 × the time in wasm and 1.4 × natively,
+// array().exp() 2.5 × and 1.1 × (4,096 numbers). elementary_test.cpp compares with them.
 #pragma once
 
 #include "core/numerics/types.hpp"

@@ -41,7 +41,7 @@ Result<std::unique_ptr<MinQuadWithFixed>> MinQuadWithFixed::create(const SparseM
   made->cholesky_ = std::move(*analyzed);
   made->succeeded_ = made->cholesky_->factor(rows.among_free);
   made->free_ = std::move(free);
-  made->to_fixed_ = std::move(rows.to_fixed);
+  made->to_fixed_.swap(rows.to_fixed);
   made->right_.resize(made->to_fixed_.rows(), options.columns);
   return made;
 }

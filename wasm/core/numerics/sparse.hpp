@@ -11,7 +11,8 @@
 
 namespace handlebody {
 
-/** Compressed, column indices ascending in each row. Less than 2³¹ entries: who makes one sees to that. */
+/** Compressed, column indices ascending in each row. Eigen copies where it is moved from: swap() does not. Less than 2³¹ entries:
+ * who makes one sees to that. */
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 using Triplet = Eigen::Triplet<double, std::int32_t>;
 

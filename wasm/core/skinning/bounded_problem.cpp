@@ -40,7 +40,7 @@ BoundedProblem::BoundedProblem(const SparseMatrix& energy, const HeldVertices& h
   for (std::uint32_t v = 0; v < is_held.size(); ++v)
     if (!is_held[v]) free_.push_back(v);
   FreeRows rows = free_rows(energy, free_);
-  energy_ = std::move(rows.among_free);
+  energy_.swap(rows.among_free);
   load_.noalias() = rows.to_fixed * fixed;
   image_.noalias() = energy * fixed;
   held_energy_ = fixed.cwiseProduct(image_).sum() / 2;

@@ -34,7 +34,7 @@ Result<std::unique_ptr<PolyharmonicWeights>> PolyharmonicWeights::create(Simplex
   result.mass_ = mass_matrix(mesh, mass);
   auto energy = polyharmonic_energy(cotangent_laplacian(mesh), result.mass_, order);
   if (!energy) return energy.error();
-  result.energy_ = std::move(*energy);
+  result.energy_.swap(*energy);
   result.mesh_ = std::move(mesh);
   return made;
 }

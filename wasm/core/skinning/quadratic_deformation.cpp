@@ -43,18 +43,21 @@ class QuadraticDeformation final : public HeldDeformation {
     if (energy == QuadraticEnergy::laplacian) {
       auto product = polyharmonic_energy(q, mass_matrix(setup->mesh, Mass::voronoi), 2);
       if (!product) return product.error();
-      q = std::move(*product);
+      q.swap(*product);
     }
     const bool conformal = energy == QuadraticEnergy::conformal;
     if (conformal) q = conformal_matrix(setup->mesh, q);
     auto solver = free_solver(q, setup->owner_of);
     if (!solver) return solver.error();
-    return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(*setup), std::move(q), std::move(*solver)));
+    return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(*setup), q, std::move(*solver)));
   }
 
  private:
-  QuadraticDeformation(Setup setup, SparseMatrix q, std::unique_ptr<MinQuadWithFixed> solver)
-      : HeldDeformation(std::move(setup)), q_(std::move(q)), solver_(std::move(solver)), product_(q_.rows()) {}
+  /** Takes q. */
+  QuadraticDeformation(Setup setup, SparseMatrix& q, std::unique_ptr<MinQuadWithFixed> solver)
+      : HeldDeformation(std::move(setup)), solver_(std::move(solver)), product_(q.rows()) {
+    q_.swap(q);  // Eigen's sparse matrices are not moved
+  }
 
   void minimize() override {
     const Index columns = displacements_.size() / q_.rows();  // 1 where x and y are unknowns of the same equations
