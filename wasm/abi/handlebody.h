@@ -419,7 +419,7 @@ typedef struct hb_sparse_matrix {
 } hb_sparse_matrix;
 
 /* The operators of a mesh. `order` 1 harmonic (least ∫|∇w|²), 2 biharmonic (∫(Δw)²), 3 triharmonic (∫|∇Δw|²); `mass` 0 Voronoi, mixed where
- * obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
+ * obtuse, 1 barycentric. Fails with MESH_*, INVALID_SHAPE, INVALID_OPTION or OUT_OF_MEMORY. */
 HB_WHOLE_API int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** weights);
 
 /* Each handle holds one vertex or more. Solves, the first time by factoring, later by small updates where that is less work. Fails with

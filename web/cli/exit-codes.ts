@@ -1,4 +1,4 @@
-/** How the command ends. The numbers are part of its interface: `handlebody --help` and the README list them. */
+/** How the command ends. The numbers are part of its interface: `handlebody --help` and README.md in this folder list them. */
 import type { ErrorCode } from '../../wasm/ts/errors.ts';
 
 export const EXIT = {

@@ -1,4 +1,4 @@
-/** What `--help` prints. The README says the same in more words. */
+/** What `--help` prints. README.md in this folder says the same in more words. */
 
 const EXIT_CODES = `Exit codes
   0  done

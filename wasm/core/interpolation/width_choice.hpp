@@ -16,8 +16,8 @@ double spacing_width(const Matrix& points, const RadialBasisOptions& options);
  * them decide. */
 double leave_one_out_width(const ScatteredData& data, const RbfOptions& options);
 
-/** The largest width below the given one whose fit has a condition number of at most comfortable_condition; 0 where there is none.
- */
+/** The largest width below the given one whose fit has a condition number of at most comfortable_condition; 0 where there is none
+ * down to e⁻¹² of it. */
 double comfortable_width(const ScatteredData& data, const RbfOptions& options);
 
 }  // namespace handlebody
