@@ -28,6 +28,11 @@ MatrixXd tail_at(const RadialBasis& basis, const Matrix& inner, Index columns) {
   return p;
 }
 
+/** The lower triangle, in the upper one too. */
+void mirror(Eigen::Ref<MatrixXd> square) {
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+}
+
 /** The whole block matrix by LU, for any kernel. */
 class SaddleFit final : public LinearFit {
  public:
@@ -66,20 +71,25 @@ class SaddleFit final : public LinearFit {
 class DefiniteFit final : public LinearFit, private Inverse {
  public:
   DefiniteFit(RadialBasis& basis, const Matrix& points, double smoothing)
-      : tail_(basis.tail()), sign_(basis.kernel().sign()), side_(tail_at(basis, basis.to_inner(points), tail_)) {
+      : tail_(basis.tail()),
+        sign_(basis.kernel().sign()),
+        polynomials_(tail_at(basis, basis.to_inner(points), tail_)),
+        side_(polynomials_) {
     const Index n = points.rows();
-    MatrixXd b(n, n);  // its lower triangle
+    MatrixXd b(n, n);  // its lower triangle; the kernels themselves stay in the upper one
     for (Index j = 0; j < n; ++j) {
       basis.kernels_from(j, &points(j, 0), &b(j, j));
       if (sign_ < 0) b.col(j).tail(n - j) *= -1;
     }
+    mirror(b);
+    diagonal_ = b.diagonal();
     b.diagonal().array() += basis.amplitude_of_scale() * smoothing;
-    set_norm(b, tail_at(basis, basis.to_inner(points), tail_));
+    set_norm(b);
     side_.conjugate(b);
     // The first columns are kept apart. Those of the identity in their place save copying the rest.
     strip_ = b.leftCols(tail_);
-    strip_.topRows(tail_).triangularView<Eigen::StrictlyUpper>() = strip_.topRows(tail_).transpose();
-    b.leftCols(tail_).setZero();
+    mirror(strip_.topRows(tail_));
+    b.leftCols(tail_).triangularView<Eigen::Lower>().setZero();
     b.diagonal().head(tail_).setOnes();
     cholesky_.emplace(std::move(b));
     if (definite()) condition_ = or_infinite(norm_ * inverse_norm_estimate(*this));
@@ -101,6 +111,21 @@ class DefiniteFit final : public LinearFit, private Inverse {
     }
     x.topRows(n) *= sign_;
     return x.transpose();
+  }
+
+  std::optional<MatrixXd> fitted(const MatrixXd& coefficients) const override {
+    const Index n = cholesky_->rows();
+    const MatrixXd& kernels = cholesky_->factor();
+    const MatrixXd x = coefficients.transpose();
+    MatrixXd result = product(polynomials_, x.bottomRows(tail_));
+    for (Index out = 0; out < x.cols(); ++out)
+      for (Index j = 0; j < n; ++j) {
+        const auto above = kernels.col(j).head(j);
+        const double c = sign_ * x(j, out);
+        result(j, out) += diagonal_[j] * c + sign_ * above.dot(x.col(out).head(j));
+        result.col(out).head(j) += c * above;
+      }
+    return result;
   }
 
  private:
@@ -127,22 +152,24 @@ class DefiniteFit final : public LinearFit, private Inverse {
   }
 
   /** Of the whole block matrix. */
-  void set_norm(const MatrixXd& lower, const MatrixXd& p) {
+  void set_norm(const MatrixXd& lower) {
     const Index n = lower.rows();
-    Vector sums = p.cwiseAbs().rowwise().sum();
+    Vector sums = polynomials_.cwiseAbs().rowwise().sum();
     for (Index j = 0; j < n; ++j) {
       const auto below = lower.col(j).tail(n - 1 - j).cwiseAbs();
       sums[j] += std::abs(lower(j, j)) + below.sum();
       sums.tail(n - 1 - j) += below;
     }
-    norm_ = std::max(sums.maxCoeff<Eigen::PropagateNaN>(), one_norm(p));
+    norm_ = std::max(sums.maxCoeff<Eigen::PropagateNaN>(), one_norm(polynomials_));
   }
 
   Index tail_;
   double sign_;
-  Qr side_;         // of P
-  MatrixXd strip_;  // B₁₁ and B₂₁
-  std::optional<Cholesky> cholesky_;
+  MatrixXd polynomials_;              // P
+  Qr side_;                           // of P
+  Vector diagonal_;                   // of R
+  MatrixXd strip_;                    // B₁₁ and B₂₁
+  std::optional<Cholesky> cholesky_;  // and the rest of R, in the other triangle
 };
 
 /** The null space of the side conditions P(centers)ᵀ c = 0, as Householder reflections: c = Q [0; z]. */

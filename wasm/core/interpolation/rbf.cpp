@@ -205,16 +205,18 @@ Result<Matrix> Rbf::leave_one_out() {
   return errors;
 }
 
+Matrix Rbf::fitted() {
+  if (const auto known = fit_->fitted(coefficients_)) return *known;
+  Matrix values(data_.points.rows(), outputs());
+  evaluate(data_.points.data(), values.rows(), values.data());
+  return values;
+}
+
 RbfReport Rbf::report() {
   RbfReport report;
   const Index n = data_.points.rows();
   report.condition = fit_->condition();
-  Matrix fitted(n, outputs());
-  evaluate(data_.points.data(), n, fitted.data());
-  for (Index i = 0; i < fitted.size(); ++i) {
-    const double misfit = std::abs(fitted.data()[i] - data_.values.data()[i]);
-    if (!(report.residual >= misfit) && !std::isnan(report.residual)) report.residual = misfit;  // a NaN stays
-  }
+  report.residual = (fitted() - data_.values).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   report.spacing = n > 1 ? nearest_distances(basis_.to_inner(data_.points)).mean() / basis_.scale() : 0;
   report.least_width = basis_.widths().minCoeff();
   report.largest_width = basis_.widths().maxCoeff();

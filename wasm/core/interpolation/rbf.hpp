@@ -81,6 +81,7 @@ class Rbf final : public Interpolant {
   Rbf(ScatteredData data, RadialBasis basis, const RbfOptions& options);
 
   void weigh(const double* query, double* w, double* slopes) override;
+  Matrix fitted();  // n×m, at the points
   void multiply_gradients(const MatrixXd& coefficients, double* out);
 
   RadialBasis basis_;

@@ -28,16 +28,16 @@ void logarithm(Reals& x) {
   const Reals m = (Reals)(bits - (k << 52));
   const Reals exponent = (Reals)(k + integer_shift_bits) - integer_shift;
   const Reals s = (m - 1) / (m + 1), z = s * s;
-  Reals sum = z * (2.0 / 23) + 2.0 / 21;
-  sum = sum * z + 2.0 / 19;
-  sum = sum * z + 2.0 / 17;
-  sum = sum * z + 2.0 / 15;
-  sum = sum * z + 2.0 / 13;
-  sum = sum * z + 2.0 / 11;
-  sum = sum * z + 2.0 / 9;
-  sum = sum * z + 2.0 / 7;
-  sum = sum * z + 2.0 / 5;
-  sum = sum * z + 2.0 / 3;
+  const Reals z2 = z * z;  // even and odd powers apart, which need not wait for each other
+  Reals even = z2 * (2.0 / 23) + 2.0 / 19, odd = z2 * (2.0 / 21) + 2.0 / 17;
+  even = even * z2 + 2.0 / 15;
+  odd = odd * z2 + 2.0 / 13;
+  even = even * z2 + 2.0 / 11;
+  odd = odd * z2 + 2.0 / 9;
+  even = even * z2 + 2.0 / 7;
+  odd = odd * z2 + 2.0 / 5;
+  even = even * z2 + 2.0 / 3;
+  const Reals sum = even + z * odd;
   x = exponent * ln2_high + (exponent * ln2_low + s * z * sum + 2 * s);
 }
 
@@ -47,19 +47,17 @@ void decaying_exponential(Reals& x) {
   const Reals t = -(Reals)((Words)x & in_range);
   const Reals shifted = t * 1.4426950408889634 + integer_shift, k = shifted - integer_shift;
   const Reals r = (t - k * ln2_high) - k * ln2_low;
-  Reals sum = r * (1.0 / 6227020800) + 1.0 / 479001600;
-  sum = sum * r + 1.0 / 39916800;
-  sum = sum * r + 1.0 / 3628800;
-  sum = sum * r + 1.0 / 362880;
-  sum = sum * r + 1.0 / 40320;
-  sum = sum * r + 1.0 / 5040;
-  sum = sum * r + 1.0 / 720;
-  sum = sum * r + 1.0 / 120;
-  sum = sum * r + 1.0 / 24;
-  sum = sum * r + 1.0 / 6;
-  sum = sum * r + 0.5;
-  sum = sum * r + 1;
-  sum = sum * r + 1;
+  const Reals z = r * r;  // even and odd powers apart, which need not wait for each other
+  Reals even = z * (1.0 / 479001600) + 1.0 / 3628800, odd = z * (1.0 / 6227020800) + 1.0 / 39916800;
+  even = even * z + 1.0 / 40320;
+  odd = odd * z + 1.0 / 362880;
+  even = even * z + 1.0 / 720;
+  odd = odd * z + 1.0 / 5040;
+  even = even * z + 1.0 / 24;
+  odd = odd * z + 1.0 / 120;
+  even = even * z + 0.5;
+  odd = odd * z + 1.0 / 6;
+  const Reals sum = 1 + (r + z * (even + r * odd));
   const Reals scale = (Reals)(((Words)shifted + 1023) << 52);
   x = (Reals)((Words)(sum * scale) & in_range);
 }
