@@ -171,7 +171,8 @@ describe('handlebody bake', () => {
     if (!before || !after) throw new Error('both were read');
     expect(facts(after)).toEqual(facts(before));
     expect(facts(after).clearcoat).toEqual([true]);
-    expect(await readBody(after)).toBeDefined();
+    const { mesh } = await readBody(after);
+    expect(mesh.positions).toHaveLength(3 * (before.getRoot().listMeshes()[0]?.listPrimitives()[0]?.getAttribute('POSITION')?.getCount() ?? 0));
   });
 
   it.each([

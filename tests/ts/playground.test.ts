@@ -170,7 +170,7 @@ describe('addresses', () => {
     expect(experiment.points.every(Number.isFinite)).toBe(true);
     expect(experiment.frame[0]).toBeLessThan(experiment.frame[1]);
     expect(experiment.picked).toBeLessThan(experiment.values.length);
-    expect(presetOf(experiment.preset)).toBeDefined();
+    expect(presetOf(experiment.preset)?.id).toBe(experiment.preset);
   });
 
   it('reads what somebody wrote by hand', () => {

@@ -1,19 +1,19 @@
 /* Handlebody: the C interface of the solver.
  *
- * This header is the whole contract between the solver and its callers: TypeScript's declarations, the offsets of the structs and
- * the export lists of both wasm files are made from it (scripts/generate.mjs, CMakeLists.txt), so keep one function a line. Behind
- * HB_API stands what both files export; behind HB_WHOLE_API what handlebody.wasm alone does: baking, tetrahedra, skinning weights
- * and minimized energies. handlebody.runtime.wasm moves and evaluates what they made.
+ * This header is the whole contract between the solver and its callers: TypeScript's declarations, the offsets of the structs and the
+ * export lists of both wasm files are made from it (scripts/generate.mjs, CMakeLists.txt), so keep one function per line. HB_API marks what
+ * both files export; HB_WHOLE_API marks what handlebody.wasm alone exports: baking, tetrahedra, skinning weights and minimized energies.
+ * handlebody.runtime.wasm moves and evaluates what they made.
  *
  * Conventions
- *   - Every function that can fail returns an hb_status; hb_last_error() then tells the whole story. On failure out-parameters
+ *   - Every function that can fail returns an hb_status; hb_last_error() then has the details. On failure out-parameters
  *     are untouched and the object is as it was: the last good solution stays readable.
  *   - Objects are opaque. The caller frees what a *_create or *_begin function returned by the matching *_free; NULL is allowed.
  *   - Arrays are row-major and tightly packed. Input arrays are copied; pointers that a function returns belong to the object and
  *     are valid until its next non-const call.
- *   - Doubles to solve, floats for the frame. Lengths are in the model's own units unless "solver space" is said, which is the
+ *   - Doubles for solving, floats for each frame. Lengths are in the model's own units, or where so stated in "solver space": the
  *     model scaled to a unit bounding-box diagonal and centered on its box.
- *   - Nothing here is thread-safe; use one instance a thread.
+ *   - Nothing here is thread-safe; use one instance per thread.
  */
 #ifndef HANDLEBODY_H
 #define HANDLEBODY_H
@@ -52,7 +52,7 @@ HB_API void hb_release(void* memory);
 
 /* ---- baking: interior distances and spheres of a mesh ------------------------------------------------------------------ */
 
-/* A mesh with all that IRBF needs to know of its interior. All lengths from `origin` on are in solver space. */
+/* A mesh with all that IRBF needs to know about its interior. All lengths from `origin` on are in solver space. */
 typedef struct hb_body {
   double center[3];           /* solver space = (model − center) / diagonal */
   double diagonal;            /* length of the bounding box's diagonal, model units */
@@ -83,7 +83,7 @@ typedef struct hb_bake_options {
   uint32_t max_spheres;    /* 1 to 2000 */
   uint32_t packing;        /* spheres along the skeleton (0), or from an octree (1) */
   uint32_t cloud;          /* 1: the positions are a dense sample of a surface or a solid, without triangles */
-  uint32_t voxel_count;    /* not 0: these voxels are the inside, of the grid that follows, in model units; the mesh is their surface */
+  uint32_t voxel_count;    /* not 0: so many `voxels` of the grid that follows, in model units, are the inside; the mesh is their surface */
   uint32_t dims[3];
   double origin[3];        /* center of voxel (0, 0, 0) */
   double spacing;
@@ -91,7 +91,7 @@ typedef struct hb_bake_options {
   const double* density;   /* vertex_count relative densities of centers, 1e-6 to 1e6, 1 where nothing special is wanted */
 } hb_bake_options;
 
-/* Something to tell about a bake that worked. */
+/* A warning about a bake that worked. */
 typedef struct hb_bake_warning {
   int32_t code;      /* an hb_warning_code */
   int32_t vertex;    /* its vertex, or -1 */
@@ -114,7 +114,7 @@ HB_WHOLE_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 /* The finished body, owned by the bake. */
 HB_WHOLE_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
 
-/* What there is to tell so far: the number of warnings, of which number `index` is written, if there is one. */
+/* The number of warnings so far. Writes warning number `index`, if there is one. */
 HB_WHOLE_API uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* warning);
 
 HB_WHOLE_API void hb_bake_free(hb_bake* bake);
@@ -126,7 +126,7 @@ typedef struct hb_irbf hb_irbf;
 /* Options of hb_irbf_create. */
 typedef struct hb_irbf_options {
   double relative_width; /* h, in mean center spacings */
-  double smoothness;     /* λ of eq. (10); 0 has it chosen from the body */
+  double smoothness;     /* λ of eq. (10); 0 chooses it from the body */
   double anchor_weight;  /* μ */
   double edge_exponent;  /* α of eq. (8) */
   double support;        /* where the compact inverse multiquadric ends, in widths */
@@ -146,7 +146,7 @@ typedef struct hb_irbf_report {
   uint32_t converged;    /* 1 when `change` fell below the tolerance */
 } hb_irbf_report;
 
-/* How the present deformation treats volume and shape, and what the equations are like. */
+/* How the present deformation treats volume and shape, and the condition of the equations. */
 typedef struct hb_irbf_quality {
   double volume_ratio;      /* of the deformed shape to that at rest */
   double total_distortion;  /* Σ A min ‖df − R‖² over tetrahedra of volume A, model units³ */
@@ -167,16 +167,16 @@ HB_API int32_t hb_irbf_create(const hb_body* body, const hb_irbf_options* option
  * SYSTEM_SINGULAR and keeps the former handles. */
 HB_API int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count);
 
-/* 10 numbers a handle: position xyz (model units), quaternion xyzw, scale xyz. Write it in place. */
+/* 10 numbers per handle: position xyz (model units), quaternion xyzw, scale xyz. Write it in place. */
 HB_API double* hb_irbf_targets(hb_irbf* irbf);
 
 /* Local/global iterations from where the last solve stopped, until no sphere edge moves more than `tolerance` (solver space) or
- * `max_iterations` are done; `accelerate` 1 for Anderson acceleration, 0 for plain ones. Fails with TARGET_NOT_FINITE, HANDLE_CONFLICT or
- * HANDLES_MISSING and keeps the last solution. */
+ * `max_iterations` are done; `accelerate` 1 for Anderson acceleration, 0 for plain iterations. Fails with TARGET_NOT_FINITE,
+ * HANDLE_CONFLICT or HANDLES_MISSING and keeps the last solution. */
 HB_API int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report);
 
-/* Deformed positions (vertex_count × 3, model units) of all vertices as stored, and normals when `normals` is not NULL: on entry
- * `rest_normals` (vertex_count × 3) or NULL for area-weighted ones. */
+/* Deformed positions (vertex_count × 3, model units) of all vertices as stored, and normals when `normals` is not NULL: `rest_normals`
+ * (vertex_count × 3) turned, or where that is NULL, area-weighted ones. */
 HB_API int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normals, float* normals);
 
 /* The deformation at any `count` points of space (model units, in and out count × 3): the double-precision reference. */
@@ -206,13 +206,13 @@ HB_API void hb_pose_space_free(hb_pose_space* space);
 
 /* ---- scattered interpolation -------------------------------------------------------------------------------------------- */
 
-/* Points with values, and what makes a function of them. `points` count × dimension, `values` count × outputs, 1 to 64 dimensions. All
- * *_create functions of this section check them alike: POINTS_TOO_FEW, POINT_NOT_FINITE, VALUE_NOT_FINITE, POINTS_DEGENERATE, and,
- * unless the method smooths, POINT_DUPLICATE where two points at one place (closer than 1e-9 of the extent) have different values;
- * where the values are equal the later point is merged into the earlier one. */
+/* An interpolant of points with values. `points` count × dimension, `values` count × outputs, 1 to 64 dimensions. All *_create functions of
+ * this section check them alike: POINTS_TOO_FEW, POINT_NOT_FINITE, VALUE_NOT_FINITE, POINTS_DEGENERATE, and, unless the method smooths,
+ * POINT_DUPLICATE where two points at one place (closer than 1e-9 of the extent) have different values; where the values are equal the
+ * later point is merged into the earlier one. */
 typedef struct hb_interpolant hb_interpolant;
 
-/* The point that stands for each (count as given): its own number, or that of the earlier point that it was merged into. */
+/* For each point (count as given) the one that stands for it: itself, or the earlier point that it was merged into. */
 HB_API int32_t hb_interpolant_twins(hb_interpolant* interpolant, uint32_t* twins);
 
 /* Values (count × outputs) at `queries` (count × dimension). Allocates nothing. Fails with QUERY_NOT_FINITE (culprit: the query). */
@@ -222,13 +222,13 @@ HB_API int32_t hb_interpolant_evaluate(hb_interpolant* interpolant, const double
  * method without gradients. */
 HB_API int32_t hb_interpolant_gradient(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out);
 
-/* Weights of the points as given (count × points) at `queries`: the value is their sum over the points' values. */
+/* Weights of the points as given (count × points) at `queries`: the value is the sum of the points' values times their weights. */
 HB_API int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out);
 
 HB_API void hb_interpolant_free(hb_interpolant* interpolant);
 
-/* Options of hb_tension_spline_create: least Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space, through the
- * points for a smoothing of 0. */
+/* Options of hb_tension_spline_create, which minimizes Σ (f − y)²/smoothing + alpha ∫(∇²f)² + beta ∫|∇f|² + gamma ∫f² over all of space, or
+ * passes through the points for a smoothing of 0. */
 typedef struct hb_tension_spline_options {
   double alpha;     /* ≥ 0, and above 0 except in 1 dimension */
   double beta;      /* ≥ 0 */
@@ -238,7 +238,7 @@ typedef struct hb_tension_spline_options {
                        ends and constant beyond */
 } hb_tension_spline_options;
 
-/* Splines with tension in 1, 2 or 3 dimensions. hb_rbf_get_report() and the like take what ends 0 makes. Fails with the codes above,
+/* Splines with tension in 1, 2 or 3 dimensions. hb_rbf_get_report() and the like accept the result for ends 0. Fails with the codes above,
  * INVALID_OPTION, INVALID_SHAPE (another dimension) or, as hb_rbf_create does, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
 HB_API int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_tension_spline_options* options, hb_interpolant** interpolant);
 
@@ -254,20 +254,20 @@ typedef struct hb_moving_least_squares_options {
   uint32_t weight; /* 0 (r + epsilon)^-power, 1 exp(-(r/width)²), 2 (1 - r/width)⁴₊ (4r/width + 1) */
 } hb_moving_least_squares_options;
 
-/* Moving least squares: at every query a polynomial, fitted to the points by weights that fall with their distance. `used_width`, or NULL,
- * tells which width was taken (0 for weight 0). Fails with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say that the
- * points do not determine a polynomial of the degree, INVALID_OPTION or OUT_OF_MEMORY. */
+/* Moving least squares: at every query a polynomial, fitted to the points by weights that fall with their distance. `used_width`, unless
+ * NULL, gets the width that was used (0 for weight 0). Fails with the codes above, of which POINTS_TOO_FEW and POINTS_DEGENERATE also say
+ * that the points do not determine a polynomial of the degree, INVALID_OPTION or OUT_OF_MEMORY. */
 HB_API int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_moving_least_squares_options* options, double* used_width, hb_interpolant** interpolant);
 
-/* Linear interpolation on the Delaunay simplices; of cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
+/* Linear interpolation on the Delaunay simplices; for cospherical points (to 1e-9) the weights of least norm. `outside` the convex hull,
  * farther than 1e-12 of the diagonal: 0 for the value at the hull's nearest point, 1 for NaN. Points that span less than the space are
- * interpolated in their span, which queries are projected onto; with 1, NaN farther off it than 2e-9 of the diagonal. No gradients. */
+ * interpolated in their span, onto which queries are projected; with 1, NaN farther than 2e-9 of the diagonal from it. No gradients. */
 HB_API int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, uint32_t outside, hb_interpolant** interpolant);
 
 /* Options of hb_rbf_create. */
 typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
-  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers has it chosen */
+  double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers chooses it */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   const double* widths;  /* one a center, or NULL */
@@ -284,14 +284,14 @@ typedef struct hb_rbf_options {
   uint32_t robust;       /* with fewer centers than points: 0 least squares, 1 least absolute misfits, 2 least median of squares */
 } hb_rbf_options;
 
-/* What a fit is worth; lengths in units of the points. */
+/* How good a fit is; lengths in units of the points. */
 typedef struct hb_rbf_report {
   double condition; /* estimated 1-norm condition number of the equations */
   double residual;  /* largest misfit at a point */
   double spacing;   /* mean distance of a point to its nearest neighbor; 0 for a single point */
   double least_width;
   double largest_width;
-  double suggested_width; /* where ill conditioned: a width, and a smoothing, that are not; 0 where there is none */
+  double suggested_width; /* where ill conditioned: a well conditioned width, and smoothing; 0 where there is none */
   double suggested_smoothing;
   uint32_t center_count;
   uint32_t near_count; /* pairs of points closer than a thousandth of the spacing, at most 8 of them listed */
@@ -303,24 +303,24 @@ typedef struct hb_rbf_report {
 HB_API int32_t hb_rbf_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs, const hb_rbf_options* options, hb_interpolant** interpolant);
 
 /* HB_OK where the matrices of an hb_rbf_create with such counts may be allocated (`center_count` 0 for one at each point), else
- * OUT_OF_MEMORY: asked before the points are copied in. */
+ * OUT_OF_MEMORY: to be called before the points are copied in. */
 HB_API int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_count, int32_t degree);
 
-/* These take what hb_rbf_create made, and fail with INVALID_OPTION for another method's. Coefficients: center_count × outputs, of the
- * kernels in the caller's units. Leave-one-out: count × outputs errors, value less prediction without the point. Row weights: count,
+/* These take an interpolant that hb_rbf_create made, and fail with INVALID_OPTION for other methods. Coefficients: center_count × outputs,
+ * of the kernels in the caller's units. Leave-one-out: count × outputs errors, value less prediction without the point. Row weights: count,
  * below 1 where a robust fit mistrusts a point. */
 HB_API int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* report);
 HB_API int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out);
 HB_API int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out);
 HB_API int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out);
 
-/* What to look for, the first three of them; and where hb_find_outliers writes what it finds. */
+/* The first three say what to look for; into the others hb_find_outliers writes what it finds. */
 typedef struct hb_outlier_search {
   double threshold;       /* robust standard deviations above the median score */
   uint32_t method;        /* scores: 0 row sums of the function norm, 1 what the norm loses without the point, 2 distance from the smoothed
                              interpolant */
-  uint32_t most;          /* outliers to take out, and what `outliers` and `heights` have room for */
-  double* scores;         /* one a point, before any is taken out */
+  uint32_t most;          /* most outliers to take out; `outliers` and `heights` have room for as many */
+  double* scores;         /* one per point, before any is taken out */
   uint32_t* outliers;     /* points, as they were found */
   double* heights;        /* the score of each when it was found, in robust standard deviations above the median */
   double smoothing;       /* the one used */
@@ -337,20 +337,20 @@ HB_API int32_t hb_find_outliers(const double* points, const double* values, uint
  * Neumann (no slope), 3 periodic. See core/interpolation/discrete_green.hpp for the matrices. */
 typedef struct hb_discrete_green hb_discrete_green;
 
-/* The smoothest curve by D through `samples` (sample_count different numbers below size) with `values`. Fails with INVALID_OPTION,
- * INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
+/* The curve through `samples` (sample_count different numbers below size) with `values` that is the smoothest in terms of D. Fails with
+ * INVALID_OPTION, INVALID_SHAPE, POINTS_TOO_FEW, POINT_DUPLICATE or VALUE_NOT_FINITE (culprit: which of the samples). */
 HB_WHOLE_API int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values, uint32_t sample_count, hb_discrete_green** green);
 
 /* Rows of D, and the dimension of the null space of DᵀD. */
 HB_WHOLE_API int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity);
 
-/* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its inverse or generalized inverse. */
+/* `which` 0: D (rows × size); 1: DᵀD; 2: its orthonormal null space (size × nullity); 3: Green's matrix, its (generalized) inverse. */
 HB_WHOLE_API int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out);
 
 /* The curve (size), by elimination on the grid. */
 HB_WHOLE_API int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out);
 
-/* The curve (size) by radial functions, and their weights (sample_count + nullity) unless NULL: Green's functions at the samples first. */
+/* The curve (size) by radial functions, and unless NULL their `weights` (sample_count + nullity), Green's functions first. */
 HB_WHOLE_API int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights);
 
 HB_WHOLE_API void hb_discrete_green_free(hb_discrete_green* green);
@@ -383,7 +383,7 @@ HB_WHOLE_API void hb_tetrahedra_free(hb_tetrahedra* tetrahedra);
 
 /* ---- skinning weights ------------------------------------------------------------------------------------------------------ */
 
-/* A mesh that weights and deformations live on: triangles (3 corners) in 2 or 3 dimensions, tetrahedra (4) in 3. */
+/* A mesh that weights and deformations are defined on: triangles (3 corners) in 2 or 3 dimensions, tetrahedra (4) in 3. */
 typedef struct hb_simplex_mesh {
   const double* positions;   /* vertex_count × dimension */
   const uint32_t* simplices; /* simplex_count × corners vertex numbers */
@@ -435,12 +435,12 @@ HB_WHOLE_API uint32_t hb_skinning_weights_factored(hb_skinning_weights* weights)
 /* The parts without a handle of their own, and their number. */
 HB_WHOLE_API uint32_t hb_skinning_weights_islands(hb_skinning_weights* weights, const hb_island** islands);
 
-/* The diagonal mass matrix (vertex_count), and the matrix Q of the energy wᵀQw with the number of its entries: minus libigl's `cotmatrix` for order
- * 1, the bi-Laplacian C M⁻¹ C for order 2. */
+/* The diagonal mass matrix (vertex_count), and the matrix Q of the energy wᵀQw with the number of its entries: for order 1 the negative of
+ * libigl's `cotmatrix`, for order 2 the bi-Laplacian C M⁻¹ C. */
 HB_WHOLE_API const double* hb_skinning_weights_mass(hb_skinning_weights* weights);
 HB_WHOLE_API uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matrix* energy);
 
-/* What bounding the weights came to. */
+/* The result of bounding the weights. */
 typedef struct hb_bounded_report {
   double energy;         /* ½ Σ wᵀQw */
   double gap;            /* the least energy is not below energy − gap */
@@ -448,15 +448,15 @@ typedef struct hb_bounded_report {
   uint32_t newton_steps;
 } hb_bounded_report;
 
-/* Begins to bring the weights into [0, 1]: least ½ Σⱼ wⱼᵀQwⱼ of all handles together with w ≥ 0 and rows that sum to 1, to `tolerance` of the energy.
- * Then step until `progress` is 1; hb_skinning_weights_values() are the bounded ones from then on, until other handles are set. Fails as
- * hb_skinning_weights_set_handles does. */
+/* Begins to bring the weights into [0, 1]: minimizes ½ Σⱼ wⱼᵀQwⱼ of all handles together with w ≥ 0 and rows that sum to 1, to `tolerance`
+ * of the energy. Then step until `progress` is 1; hb_skinning_weights_values() are the bounded ones from then on, until other handles are
+ * set. Fails as hb_skinning_weights_set_handles does. */
 HB_WHOLE_API int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance);
 HB_WHOLE_API int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report);
 
 HB_WHOLE_API void hb_skinning_weights_free(hb_skinning_weights* weights);
 
-/* How well weights do what is asked of them, each the worst number over the mesh: see core/skinning/measure_weights.hpp. */
+/* How well weights meet the requirements, each the worst number over the mesh: see core/skinning/measure_weights.hpp. */
 typedef struct hb_weight_measures {
   double gradient_jump; /* from one simplex to the next, over the weight's largest gradient */
   double far_weight;    /* where another handle is less than half as far inside the shape */
@@ -480,8 +480,8 @@ typedef struct hb_skin hb_skin;
  * same result. Fails with INVALID_SHAPE, MESH_NOT_FINITE or VALUE_NOT_FINITE (culprit: the vertex), or OUT_OF_MEMORY. */
 HB_API int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, uint32_t compiled, hb_skin** skin);
 
-/* Dual quaternion blending: of the transforms' rigid parts, to a rigid motion at every vertex. Fails likewise, or with WEIGHTS_MISSING where
- * a vertex has no weight at all. */
+/* Dual quaternion blending of the transforms' rigid parts: every vertex moves rigidly. Fails likewise, or with WEIGHTS_MISSING where a
+ * vertex has no weight at all. */
 HB_API int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights, uint32_t handle_count, hb_skin** skin);
 
 /* handle_count × dimension × (dimension + 1) numbers: T with the image T [v; 1] for each handle, the identity at first. Write it in place. */
@@ -490,8 +490,8 @@ HB_API double* hb_skin_transforms(hb_skin* skin);
 /* Deformed positions (count × dimension). Allocates nothing. Fails with TARGET_NOT_FINITE (culprit: the handle) and writes nothing. */
 HB_API int32_t hb_skin_deform(hb_skin* skin, float* positions);
 
-/* Minimizes an energy of triangles in the plane instead, while the handles hold their vertices, and the ones around a handle of one vertex.
- * `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails with MESH_*, INVALID_SHAPE,
+/* Instead minimizes an energy of triangles in the plane while each handle holds its vertices, and a handle of one vertex also those around
+ * it. `energy` 0 Dirichlet, 1 Laplacian, 2 conformal (as similar as possible), 3 as rigid as possible. Fails with MESH_*, INVALID_SHAPE,
  * HANDLES_MISSING, HANDLE_OUT_OF_RANGE, HANDLE_CONFLICT, INVALID_OPTION, OUT_OF_MEMORY or SYSTEM_SINGULAR. */
 HB_WHOLE_API int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin);
 
@@ -501,8 +501,8 @@ typedef struct hb_minimizer_report {
   uint32_t flips;      /* triangles turned over */
 } hb_minimizer_report;
 
-/* hb_skin_deform() of what hb_minimizer_create made, with up to `iterations` rounds (as rigid as possible) from where the last call stopped.
- * Fails likewise, or with INVALID_OPTION. */
+/* hb_skin_deform() for an object of hb_minimizer_create, with up to `iterations` rounds (as rigid as possible) from where the last call
+ * stopped. Fails likewise, or with INVALID_OPTION. */
 HB_WHOLE_API int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report);
 
 HB_API void hb_skin_free(hb_skin* skin);

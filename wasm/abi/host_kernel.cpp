@@ -3,7 +3,7 @@
 #include <cmath>
 
 #ifdef __wasm__
-/** The host's kernel number `id` at s, or its derivative: the one function that the module asks of its host. */
+/** The host's kernel number `id` at s, or its derivative: the only function that the module imports from its host. */
 extern "C" __attribute__((import_module("env"), import_name("hb_host_kernel"))) double hb_host_kernel(uint32_t id,
                                                                                                       uint32_t derivative,
                                                                                                       double s);

@@ -1,7 +1,7 @@
-// Kernels of the caller's: functions in JavaScript, known by a number and called through one imported function, hb_host_kernel.
+// The caller's kernels: functions in JavaScript, known by a number and called through one imported function, hb_host_kernel.
 //
-// Rejected: the function table, which cannot grow from outside in a standalone module; tables of distances out and of values in,
-// which every feature would have to know of.
+// Rejected: the function table, which cannot grow from outside in a standalone module; passing tables of distances out and of
+// values in, which every feature would have to support.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace handlebody {
 
-/** The host's kernel number `id`; definite or not, the caller decides on the tail. Natively there is no host, and every value is
- * NaN: there a CustomKernel is handed to the core itself. */
+/** The host's kernel number `id`. Whether it is definite is unknown: the caller decides on the tail. Natively there is no host, and
+ * every value is NaN: there a CustomKernel is passed to the core itself. */
 CustomKernel host_kernel(uint32_t id);
 
 }  // namespace handlebody

@@ -25,7 +25,7 @@ struct GivenData {
   Eigen::Map<const Matrix> value_rows() const { return {values, static_cast<Index>(count), static_cast<Index>(outputs)}; }
 };
 
-/** HB_OK, or the failure of counts and pointers that no method accepts. */
+/** HB_OK, or the error where no method accepts the counts and pointers. */
 int32_t check_given(const GivenData& data, hb_interpolant** out);
 
 /** Hands a made interpolant to the caller. */

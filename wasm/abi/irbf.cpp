@@ -20,7 +20,7 @@ struct hb_irbf {
 
 namespace {
 
-/** The voxel domain of a body from outside: a grid that cannot be indexed, or voxels off it, must not get further. */
+/** The voxel domain of a body from outside. Refuses a grid that cannot be indexed, and voxels outside of it. */
 handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
   handlebody::Grid grid;
   grid.origin = Eigen::Map<const handlebody::Vector3>(body.origin);

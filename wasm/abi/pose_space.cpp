@@ -15,7 +15,7 @@ namespace {
 
 using namespace handlebody;
 
-// Bounds of the dense system: 4096 examples are 134 MB a matrix.
+// Bounds of the dense system: 4096 examples are 134 MB per matrix.
 constexpr uint32_t largest_count = 4096;
 constexpr uint32_t largest_dimension = 64;
 

@@ -26,7 +26,7 @@ Result<RbfOptions> read_options(const hb_rbf_options& from, uint32_t dimension) 
   const auto kind = static_cast<KernelKind>(from.kernel);
   options.basis.kernel = Kernel::of(kind, from.width, dimension, from.order);
   options.basis.kernel.support = from.support;
-  if (kind == KernelKind::custom)  // definite or not, the caller decides on the tail
+  if (kind == KernelKind::custom)  // whether it is definite is unknown: the caller decides on the tail
     options.basis.kernel.custom = host_kernel(from.host_kernel);
   options.basis.order = from.order;
   options.basis.degree = from.degree;

@@ -6,7 +6,7 @@
 
 namespace handlebody {
 
-/** A copy of the mesh. INVALID_SHAPE for simplices that the header does not name. */
+/** A copy of the mesh. INVALID_SHAPE for simplices other than those in handlebody.h. */
 Result<SimplexMesh> read_mesh(const hb_simplex_mesh& mesh);
 
 HeldVertices read_held(const hb_held_vertices& held);

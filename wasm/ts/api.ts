@@ -1,4 +1,4 @@
-/** What the entries of the whole solver export besides their `load`. */
+/** What the entry modules of the whole solver export besides their `load`. */
 export { BAKE_DEFAULTS } from './bake.ts';
 export {
   BIHARMONIC_WEIGHTS_DEFAULTS,

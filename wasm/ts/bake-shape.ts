@@ -1,4 +1,4 @@
-/** From everything that can be baked to what the solver bakes: a mesh to show and deform, and what is known of its inside. */
+/** Turns everything that can be baked into what the solver bakes: a mesh to show and deform, and what is known of its inside. */
 import type { Exports } from './abi.generated.ts';
 import { checkMeshArrays } from './check-mesh.ts';
 import { HandlebodyError } from './errors.ts';
@@ -29,15 +29,15 @@ export function prepareShape(heap: Heap<Exports>, shape: BakeShape): PreparedSha
   return { mesh, cloud, voxels: undefined };
 }
 
-/** By the counts alone: nothing has been copied yet. */
+/** Checks the counts alone: nothing has been copied yet. */
 function checkSize(heap: Heap<Exports>, shape: Exclude<BakeShape, VoxelVolume>): void {
   const indices = 'tetrahedra' in shape ? shape.tetrahedra.length / 4 : 'triangles' in shape ? shape.triangles.length / 3 : 0;
   heap.check((e) => e.hb_mesh_check_size(shape.positions.length / 3, indices));
 }
 
 /**
- * The faces of tetrahedra that no other one shares, counter-clockwise seen from outside. Every tetrahedron is taken as positively
- * oriented; those without volume are left out. So the surface winds about a point as often as tetrahedra cover it, even where they
+ * The faces that no two tetrahedra share, counter-clockwise seen from outside. Every tetrahedron is taken as positively oriented; those
+ * without volume are left out. So the surface's winding number about a point is the number of tetrahedra that cover it, even where they
  * overlap or do not meet face to face.
  */
 export function boundaryTriangles({ positions, tetrahedra }: TetrahedralMesh): Uint32Array<ArrayBuffer> {
@@ -75,7 +75,7 @@ function sixVolumes(p: ArrayLike<number>, a: number, b: number, c: number, d: nu
   return at(b, 0) * minor(1, 2) + at(b, 1) * minor(2, 0) + at(b, 2) * minor(0, 1);
 }
 
-/** Drops pairs of one triangle run through both ways: a hash table with open addressing, of triangles that still wait for theirs. */
+/** Drops pairs of one triangle in opposite orientations: a hash table with open addressing holds the triangles that have no pair yet. */
 function withoutPairs(faces: Uint32Array): Uint32Array<ArrayBuffer> {
   const count = faces.length / 3;
   const size = 2 ** Math.ceil(Math.log2(2 * count + 2));

@@ -38,7 +38,7 @@ const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string
   ],
 };
 
-/** Tells the warnings from number `told` on; returns how many there are. */
+/** Reports the warnings from number `told` on; returns how many there are. */
 export function tellWarnings(heap: Heap<Exports>, bake: number, told: number, tell: (warning: BakeWarning) => void): number {
   const layout = LAYOUT.hb_bake_warning;
   const warnings = heap.scope((scratch) => {

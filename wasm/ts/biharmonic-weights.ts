@@ -7,13 +7,13 @@ import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts'
 
 export interface BiharmonicWeightsOptions {
   /**
-   * 1: harmonic, least ∫|∇w|², with spikes at points. 2: biharmonic, least ∫(Δw)², smooth, a little below 0 and above 1 in places.
-   * 3: triharmonic, least ∫|∇Δw|², smoother, farther out of bounds.
+   * 1: harmonic, minimizes ∫|∇w|², with spikes at points. 2: biharmonic, minimizes ∫(Δw)², smooth, a little below 0 and above 1 in places.
+   * 3: triharmonic, minimizes ∫|∇Δw|², smoother, farther out of bounds.
    */
   readonly order?: 1 | 2 | 3;
   /**
-   * Brings the weights into [0, 1], all handles together, so that rows still sum to 1 (Jacobson et al. 2011): least energy among such
-   * weights. Some twenty times the work; `bound()` does the same without keeping the thread.
+   * Brings the weights into [0, 1], all handles together, so that rows still sum to 1 (Jacobson et al. 2011): of all such weights, those of
+   * least energy. Some twenty times the work; `bound()` does the same without blocking the thread.
    */
   readonly bounded?: boolean;
   /** How much of the mesh belongs to each vertex: its Voronoi cell (mixed where a triangle is obtuse) or a third of each triangle. */
@@ -32,7 +32,7 @@ export interface Island {
   readonly handle: number;
 }
 
-/** What bounding the weights came to. */
+/** The result of bounding the weights. */
 export interface BoundedReport {
   /** ½ Σⱼ wⱼᵀ Q wⱼ. */
   readonly energy: number;
@@ -45,7 +45,7 @@ export interface BoundedReport {
 }
 
 export interface BoundOptions extends SteppedOptions {
-  /** How far above the least energy the weights' may be, as a part of it. */
+  /** How far above the least energy that of the weights may be, relative to it. */
   readonly tolerance?: number;
 }
 
@@ -77,9 +77,9 @@ export class BiharmonicWeights {
   readonly #bounded: boolean;
   #weights = new Float64Array();
   #report: BoundedReport | undefined;
-  /** Of bounding that is under way. */
+  /** The report of bounding that is under way. */
   #pending: BoundedReport | undefined;
-  /** Counts boundings and what ends them, so that one notices when something else came in between. */
+  /** Counts what begins and what ends bounding, so that bounding notices when another call came in between. */
   #run = 0;
 
   /** @internal Use `Handlebody.biharmonicWeights`. */
@@ -125,12 +125,12 @@ export class BiharmonicWeights {
     return this.#vertices.length;
   }
 
-  /** Whether the last `setHandles` had to factor anew; else it was an update, which costs about one solve a vertex. */
+  /** Whether the last `setHandles` had to factor anew; else it was an update, which costs about one solve per changed vertex. */
   get factored(): boolean {
     return this.#heap.call((e) => e.hb_skinning_weights_factored(this.#handle)) !== 0;
   }
 
-  /** Parts that no handle touches, and what they follow. */
+  /** Parts that no handle touches, and the handles that they follow. */
   get islands(): readonly Island[] {
     const object = this.#handle;
     return this.#heap.scope((scratch) => {
@@ -150,7 +150,7 @@ export class BiharmonicWeights {
     return this.#heap.f64(at, this.vertexCount).slice();
   }
 
-  /** Q of the energy wᵀQw: for order 1 the cotangent Laplacian (positive: minus libigl's `cotmatrix`), for order 2 the bi-Laplacian. */
+  /** Q of the energy wᵀQw: for order 1 the cotangent Laplacian (positive: libigl's `cotmatrix`, negated), for order 2 the bi-Laplacian. */
   get energy(): SparseRows {
     const object = this.#handle;
     const heap = this.#heap;
@@ -166,7 +166,7 @@ export class BiharmonicWeights {
     });
   }
 
-  /** Other handles on the same mesh. The former weights stay when it throws. */
+  /** Sets other handles on the same mesh. The former weights stay when it throws. */
   setHandles(handles: readonly WeightHandle[]): void {
     const object = this.#handle;
     const resolved = resolveHandles(this.#mesh, handles);
@@ -189,8 +189,8 @@ export class BiharmonicWeights {
   }
 
   /**
-   * Brings the weights into [0, 1], in small steps so that the thread stays responsive; until it is done, and when it is cancelled, `weights`
-   * are what they were. `setHandles` in between puts an end to it.
+   * Brings the weights into [0, 1], in small steps so that the thread stays responsive; until it is done, and when it is cancelled,
+   * `weights` are what they were. `setHandles` in between ends it.
    */
   async bound(options: BoundOptions = {}): Promise<BoundedReport> {
     throwIfAborted(options.signal);
@@ -205,7 +205,7 @@ export class BiharmonicWeights {
     return this.#read() as BoundedReport;
   }
 
-  /** What bounding came to; nothing where the weights are not bounded. */
+  /** The result of bounding; `undefined` where the weights are not bounded. */
   get boundedReport(): BoundedReport | undefined {
     return this.#report;
   }
@@ -230,7 +230,7 @@ export class BiharmonicWeights {
 
   #step(progress: number, run: number): void {
     const heap = this.#heap;
-    // What something else put an end to is over.
+    // Another call has ended this bounding.
     if (run !== this.#run) {
       heap.f64(progress, 1)[0] = 1;
       return;

@@ -1,7 +1,7 @@
 import { HandlebodyError } from './errors.ts';
 import type { Mesh } from './types.ts';
 
-/** Lengths that the solver cannot see for itself; the values are checked there. */
+/** Checks the lengths, which the solver cannot see for itself; the values are checked there. */
 export function checkMeshArrays(mesh: Mesh): void {
   for (const [name, length] of [
     ['positions', mesh.positions.length],

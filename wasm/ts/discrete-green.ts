@@ -8,18 +8,18 @@ export type GridBoundary = 'free' | 'dirichlet' | 'neumann' | 'periodic';
 export interface DiscreteGreenOptions {
   /** Samples of the grid, N: order + 1 to 1024. */
   readonly size: number;
-  /** Of the differences D. */
+  /** Order of the differences D. */
   readonly order?: 1 | 2 | 3;
   readonly boundary?: GridBoundary;
   /** Where values are known: different numbers from 0 to size − 1. */
   readonly samples: ArrayLike<number>;
-  /** One a sample. */
+  /** One per sample. */
   readonly values: ArrayLike<number>;
 }
 
 export const DISCRETE_GREEN_DEFAULTS = { order: 2, boundary: 'free' } as const;
 
-/** A matrix to look at: row-major. */
+/** A matrix to look at, row-major. */
 export interface GridMatrix {
   readonly rows: number;
   readonly columns: number;
@@ -45,7 +45,7 @@ export class DiscreteGreen {
   readonly size: number;
   readonly order: 1 | 2 | 3;
   readonly boundary: GridBoundary;
-  /** Samples given. */
+  /** Number of samples given. */
   readonly sampleCount: number;
   /** Dimension of the null space of DᵀD: 0 where it is regular. */
   readonly nullity: number;
@@ -104,7 +104,7 @@ export class DiscreteGreen {
     return this.#solve(out, undefined);
   }
 
-  /** The curve by radial functions: G's columns at the samples and the null space, by `weights` (sampleCount + nullity). */
+  /** The curve by radial functions: G's columns at the samples and the null space, times `weights` (sampleCount + nullity). */
   solveRadial(
     out: Float64Array = new Float64Array(this.size),
     weights: Float64Array = new Float64Array(this.sampleCount + this.nullity),
@@ -165,7 +165,7 @@ export class DiscreteGreen {
   }
 }
 
-/** What C cannot see: names, lengths, and numbers that are not whole. */
+/** Checks what C cannot see: names, lengths, and numbers that are not whole. */
 function checkOptions(size: number, order: number, boundary: string, samples: ArrayLike<number>, values: ArrayLike<number>): void {
   const wrong = (message: string, remedy: string, culprit: 'option' | 'point' = 'option', index = -1) =>
     new HandlebodyError('invalid-option', { message, remedy, culprit: { kind: culprit, index } });

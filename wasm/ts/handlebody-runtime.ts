@@ -17,8 +17,8 @@ import type { BodyData, IrbfOptions } from './types.ts';
 /**
  * A solver instance: one wasm module with its memory. Every object that it makes lives in that memory.
  *
- * It moves what was baked or weighted elsewhere, and interpolates. What makes bodies and weights is `Handlebody`'s, of the import
- * "handlebody".
+ * It deforms and interpolates, with bodies and weights that were made elsewhere. `Handlebody`, of the import "handlebody", makes bodies and
+ * weights.
  */
 export class HandlebodyRuntime {
   readonly #heap: Heap;
@@ -48,7 +48,7 @@ export class HandlebodyRuntime {
     return new Rbf(this.#heap, options);
   }
 
-  /** Points that a radial basis interpolant has to bend for. */
+  /** Finds outliers: points that a radial basis interpolant has to bend for. */
   findOutliers(options: OutlierOptions): OutlierReport {
     return findOutliers(this.#heap, options);
   }
@@ -73,7 +73,7 @@ export class HandlebodyRuntime {
     return new MovingLeastSquares(this.#heap, options);
   }
 
-  /** Splines with tension: smooth, with less overshoot, or falling back to zero, as three weights say. */
+  /** Splines with tension: smooth, with less overshoot, or falling back to zero, according to three weights. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
     return new TensionSpline(this.#heap, options);
   }

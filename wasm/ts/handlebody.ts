@@ -11,7 +11,7 @@ import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './t
 import type { BakeOptions, BakeShape, BodyData, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
-/** A solver instance that can do everything: bake bodies, compute weights and minimize energies, besides all that moves them. */
+/** A solver instance that can do everything: bake bodies, compute weights and minimize energies, besides what `HandlebodyRuntime` does. */
 export class Handlebody extends HandlebodyRuntime {
   readonly #heap: Heap<Exports>;
 

@@ -5,9 +5,9 @@ import { HostKernels } from './host-kernels.ts';
 type NumberArray = ArrayLike<number> & { readonly length: number };
 
 /**
- * The only code that touches wasm memory. Any call into the module may grow its memory, after which every earlier view silently
- * reads as empty: so views are made fresh by each method here and never kept. `Heap<Exports>` is of the whole solver and serves where any
- * does.
+ * The only code that touches wasm memory. Any call into the module may grow its memory, after which every earlier view silently reads as
+ * empty: so views are made fresh by each method here and never kept. `Heap<Exports>` belongs to the whole solver and can be used wherever a
+ * `Heap` can.
  */
 export class Heap<E extends RuntimeExports = RuntimeExports> {
   /** Callers' kernels, which the solver calls back. */

@@ -1,12 +1,12 @@
 import { HandlebodyError } from './errors.ts';
 import type { KernelFunction, UserKernel } from './kernels.ts';
 
-/** Distance of the two values whose difference stands for a derivative, relative to s: the cube root of the double's precision. */
+/** Distance, relative to s, between the two points of a difference quotient: the cube root of the double's precision. */
 const STEP = 6e-6;
 
 /**
  * The callers' kernels of one instance. The solver calls them by number in the middle of its work, so nothing may be thrown through it: a
- * failure is kept, NaN is answered, and `throwFailure()` tells of it when the solver has returned.
+ * failure is kept, NaN is returned, and `throwFailure()` throws it when the solver has returned.
  */
 export class HostKernels {
   readonly #kernels = new Map<number, { value: KernelFunction; derivative: KernelFunction }>();
@@ -45,7 +45,7 @@ export class HostKernels {
     return Number.NaN;
   };
 
-  /** Throws what a kernel did wrong since the last call, as 'kernel-failed'; `error` is what the solver made of it. */
+  /** Throws what a kernel did wrong since the last call, as 'kernel-failed'; `error` is the error that the solver made of it. */
   throwFailure(error?: unknown): void {
     const failure = this.#failure;
     if (!failure) return;

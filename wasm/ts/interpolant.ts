@@ -4,11 +4,11 @@ import type { Heap, Scratch } from './heap.ts';
 
 /** Points with values, as every scattered interpolant takes them. */
 export interface ScatteredData {
-  /** Coordinates of a point, 1 to 64. */
+  /** Number of coordinates of a point, 1 to 64. */
   readonly dimension: number;
   /** n × dimension, row-major. */
   readonly points: ArrayLike<number>;
-  /** n × m, row-major: m numbers a point, which share all the work. */
+  /** n × m, row-major: m numbers per point, which share all the work. */
   readonly values: ArrayLike<number>;
 }
 
@@ -23,7 +23,7 @@ interface CreateArguments {
   readonly out: number;
 }
 
-/** Queries that cross into the solver at a time: its scratch memory stays bounded, however many are asked. */
+/** Queries that are passed to the solver at a time: its scratch memory stays bounded, however many are asked. */
 const BATCH = 4096;
 
 /**
@@ -34,7 +34,7 @@ export abstract class Interpolant {
   /** Points, as given. */
   readonly size: number;
   readonly dimension: number;
-  /** Values a point. */
+  /** Values per point. */
   readonly outputs: number;
   /** Points left out because an earlier one has the same place and values. */
   readonly merged: readonly { readonly point: number; readonly into: number }[];
@@ -87,7 +87,7 @@ export abstract class Interpolant {
     return this.#ask('gradient', queries, this.outputs * this.dimension, out);
   }
 
-  /** The points' weights (q × size) at queries (q × dimension): the value is their sum over the points' values. */
+  /** The points' weights (q × size) at queries (q × dimension): a value is the sum of the points' values times their weights. */
   weights(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
     return this.#ask('weights', queries, this.size, out);
   }
@@ -191,7 +191,7 @@ function notRows(what: string, length: number, dimension: number): HandlebodyErr
   });
 }
 
-/** The solver counts the queries of a batch: says the culprit in the caller's numbers. */
+/** The solver numbers the queries of a batch: translates the culprit's number into the caller's. */
 function countFrom(error: unknown, first: number): unknown {
   if (first === 0 || !(error instanceof HandlebodyError) || error.culprit?.kind !== 'query') return error;
   const index = error.culprit.index + first;

@@ -79,7 +79,7 @@ export class Irbf {
         }),
       () => heap.kernels.remove(this.#hostKernel),
     );
-    // Taken once, so that a frame allocates nothing.
+    // Allocated once, so that a frame allocates nothing.
     const bytes = body.mesh.positions.length * 4;
     this.#positions = heap.alloc(bytes);
     this.#normals = heap.alloc(bytes);
@@ -97,8 +97,8 @@ export class Irbf {
   }
 
   /**
-   * Where the handles are to go: 10 numbers a handle, position xyz in model units, quaternion xyzw, scale xyz. Write it in place,
-   * then `solve()`. A position handle reads the first three only. The array is replaced by `setHandles`, never otherwise.
+   * Where the handles are to go: 10 numbers per handle, position xyz in model units, quaternion xyzw, scale xyz. Write it in place, then
+   * `solve()`. A position handle reads the first three only. The array is replaced by `setHandles`, never otherwise.
    */
   get targets(): Float64Array {
     return this.#targets;
@@ -253,7 +253,7 @@ export class Irbf {
     this.dispose();
   }
 
-  /** What calls the kernel, which may be the caller's: what that did wrong is the better story. */
+  /** Runs what calls the kernel. Where that is the caller's and failed, its own error is thrown, which says more. */
   #run<T>(call: () => T, onFailure?: () => void): T {
     try {
       const result = call();

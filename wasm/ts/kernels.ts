@@ -10,10 +10,10 @@ export interface KernelInfo {
   readonly smoothness: number;
   /**
    * For any distinct points the interpolation matrix is regular given a polynomial tail of this degree or more (−1: none is needed): the
-   * kernel or its negative is conditionally positive definite. `undefined` depends on the order, or is not known.
+   * kernel or its negative is conditionally positive definite. `undefined` where it depends on the order, or is not known.
    */
   readonly minimumDegree: number | undefined;
-  /** Largest dimension in which that is a theorem; 0 where there is none. */
+  /** Largest dimension in which that is proved; 0 where there is none. */
   readonly definiteToDimension: number;
 }
 
@@ -65,7 +65,7 @@ export const HOST_KERNEL = 15;
 /** A kernel of your own: φ(s), s = r/width ≥ 0. */
 export type KernelFunction = (s: number) => number;
 
-/** A kernel of your own with what only you know of it. */
+/** A kernel of your own, and what only you know about it. */
 export interface UserKernel {
   readonly value: KernelFunction;
   /** φ′(s), for gradients; central differences of `value` where it is left out. */

@@ -59,7 +59,7 @@ export function checkWebAssembly(): void {
   });
 }
 
-/** Refuses a module of something else, of another release, or the other link, before an object calls what is not there. */
+/** Refuses a module that is something else, another release, or the other link, before an object calls what is not there. */
 function checkLink(link: Link, exports: Partial<Exports>): void {
   const refused = (message: string, remedy: string) => new HandlebodyError('wasm-unavailable', { message, remedy });
   const serve = `Serve the ${link} of the same release as the library`;
@@ -78,7 +78,7 @@ function checkLink(link: Link, exports: Partial<Exports>): void {
   }
 }
 
-/** The module asks its host for kernels; whatever else it names is answered with "not supported" (errno 52). */
+/** The module imports kernels from its host; every other import answers "not supported" (errno 52). */
 function imports(module: WebAssembly.Module, kernels: HostKernels): WebAssembly.Imports {
   const answers: Record<string, Record<string, (...args: number[]) => number>> = {};
   for (const { module: space, name } of WebAssembly.Module.imports(module)) {

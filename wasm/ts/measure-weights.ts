@@ -9,13 +9,13 @@ import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts'
  * the shape are lengths of paths along edges, a little longer than the shortest.
  */
 export interface WeightMeasures {
-  /** Smooth: the largest jump of a weight's gradient from one simplex to the next, as a part of its largest gradient; falls with the edges. */
+  /** Smooth: the largest jump of a weight's gradient from one simplex to the next, over its largest gradient; shrinks with the edges. */
   readonly gradientJump: number;
   /** Local: the largest |wⱼ| at a vertex that is less than half as far from another handle. */
   readonly farWeight: number;
   /**
-   * Shape-aware: the largest |wⱼ| of a handle that is the nearest in a straight line, but around a bend (half as far again inside the shape) and
-   * farther than another. NaN where the shape has no such place.
+   * Shape-aware: the largest |wⱼ| of a handle that is the nearest in a straight line, but inside the shape half as far again, around a
+   * bend, and farther than another. NaN where the shape has no such place.
    */
   readonly leakedWeight: number;
   /** Sums to 1: the largest |Σⱼ wⱼ − 1|. */

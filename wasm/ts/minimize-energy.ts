@@ -6,11 +6,11 @@ import { Skin } from './skin.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
 /**
- * Of the map f = v + u of the shape:
- * - `dirichlet` ½ ∫|∇u|²: kinks at the handles, and knows no rotations;
- * - `laplacian` ½ ∫(Δu)²: smooth, and knows no rotations either;
+ * Energy of the map f = v + u of the shape:
+ * - `dirichlet` ½ ∫|∇u|²: kinks at the handles, not invariant under rotations;
+ * - `laplacian` ½ ∫(Δu)²: smooth, not invariant under rotations either;
  * - `conformal` ½ ∫|∇f|² − area(f): as similar as possible, angles stay, sizes may not;
- * - `rigid` ½ ∫|∇f − R|², R the nearest rotation: as rigid as possible, by rounds.
+ * - `rigid` ½ ∫|∇f − R|², R the nearest rotation: as rigid as possible, minimized in rounds.
  */
 export type DeformationEnergy = 'dirichlet' | 'laplacian' | 'conformal' | 'rigid';
 
@@ -22,11 +22,11 @@ export interface MinimizeEnergyOptions {
 
 export const MINIMIZE_ENERGY_DEFAULTS = { iterations: 10 } as const;
 
-/** What a frame came to. */
+/** The result of a frame. */
 export interface MinimizeEnergyReport {
   /** The energy, in units of area (`laplacian`: none). */
   readonly energy: number;
-  /** Rounds taken; 1 where one solve does. */
+  /** Rounds taken; 1 where a single solve suffices. */
   readonly iterations: number;
   /** Triangles that were turned over, or lost their area. */
   readonly flips: number;
@@ -35,9 +35,9 @@ export interface MinimizeEnergyReport {
 const ENERGIES: readonly DeformationEnergy[] = ['dirichlet', 'laplacian', 'conformal', 'rigid'];
 
 /**
- * The deformation of triangles in the plane that minimizes an energy while the handles hold their vertices, and around a handle of one vertex
- * the vertices next to it, where their transforms take them (lecture, "Energy-based Deformation"). Parts without a handle move as a whole with
- * the nearest one. Factors once; a frame is one solve, or one a round.
+ * The deformation of triangles in the plane that minimizes an energy while the handles hold their vertices where their transforms take
+ * them; a handle of one vertex also holds the vertices next to it (lecture, "Energy-based Deformation"). Parts without a handle move as a
+ * whole with the nearest one. Factors once; a frame is one solve, or one per round.
  *
  * ```ts
  * const map = hb.minimizeEnergy({ positions, dimension: 2, triangles }, [{ vertex: 3 }, { vertex: 40 }], { energy: 'rigid' });

@@ -7,7 +7,7 @@ import { Interpolant, type ScatteredData } from './interpolant.ts';
 export type MovingWeight = 'inverse-distance' | 'gaussian' | 'wendland';
 
 export interface MovingLeastSquaresOptions extends ScatteredData {
-  /** Of the polynomial that is fitted at every place, and reproduced. */
+  /** Degree of the polynomial that is fitted at every place; such polynomials are reproduced. */
   readonly degree?: 0 | 1 | 2;
   /** `'inverse-distance'` interpolates where `epsilon` is 0; the others approximate. */
   readonly weight?: MovingWeight;
@@ -36,8 +36,8 @@ const WEIGHTS: Record<MovingWeight, number> = { 'inverse-distance': 0, gaussian:
  * Moving least squares (Lancaster and Salkauskas 1981): the value at x is that of a polynomial fitted to all points by weights that fall
  * with their distance from x. Of degree 0 with inverse distances it is Shepard's method; higher degrees have no flat spots.
  *
- * Where the points near by do not determine the polynomial, `'wendland'` widens to 2q of them (q polynomials), and the degree falls to
- * one that they do determine.
+ * Where the points near by do not determine the polynomial, `'wendland'` widens to 2q points (q polynomials), and the degree falls to one
+ * that they do determine.
  *
  * ```ts
  * const f = hb.movingLeastSquares({ dimension: 1, points: [0, 1, 3, 4], values: [2, 0, 1, 1], degree: 1 });

@@ -10,9 +10,9 @@ export interface NaturalNeighborOptions extends ScatteredData {
 export const NATURAL_NEIGHBOR_DEFAULTS = { outside: 'nearest' } as const satisfies Partial<NaturalNeighborOptions>;
 
 /**
- * Natural neighbor interpolation in the plane (Sibson 1981): a query weighs every point by the area that its Voronoi cell would take
- * from the point's. It never leaves the range of the values, reproduces linear functions inside the convex hull, and is smooth but
- * for the points themselves, where it has no gradient (NaN).
+ * Natural neighbor interpolation in the plane (Sibson 1981): a query weighs every point by the area that the query's Voronoi cell would
+ * take from the point's. It never leaves the range of the values, reproduces linear functions inside the convex hull, and is smooth but for
+ * the points themselves, where it has no gradient (NaN).
  *
  * ```ts
  * const f = hb.naturalNeighbor({ dimension: 2, points: [0, 0, 1, 0, 1, 1, 0, 1], values: [0, 1, 0, 1] });

@@ -13,7 +13,7 @@ export interface OutlierOptions
    * point, exactly. `'row-sum'`: the point's row of that norm, which only approximates it (2014 course, §5.3) and may name a neighbor.
    */
   readonly method?: OutlierMethod;
-  /** λ of R + λI. `'auto'`: ½ for kernels with a width, the points' spacing to the power of the kernel's for r, r³ and the like. */
+  /** λ of R + λI. `'auto'`: ½ for kernels with a width; for r, r³ and the like, the points' spacing to the same power. */
   readonly smoothing?: number | 'auto';
   /** Robust standard deviations above the median score. */
   readonly threshold?: number;

@@ -1,7 +1,7 @@
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 
-/** `cardinal`: radial basis functions with a polynomial tail. `normalized`: gentler between examples, leaning to isolated ones. */
+/** `cardinal`: radial basis functions with a polynomial tail. `normalized`: weights closer to [0, 1], but favors isolated examples. */
 export type PoseSpaceMethod = 'cardinal' | 'normalized';
 
 export type PoseSpaceKernel =
@@ -16,9 +16,9 @@ export type PoseSpaceKernel =
 /** A shape and the place in the pose space where it belongs. */
 export interface PoseExample {
   readonly name: string;
-  /** One coordinate a dimension. */
+  /** One coordinate per dimension. */
   readonly at: ArrayLike<number>;
-  /** A row of numbers, as long as every other example's: displacements (3 a vertex), parameters of a rig, anything that blends. */
+  /** A row of numbers, as long as every other example's: displacements (3 per vertex), parameters of a rig, anything that blends. */
   readonly shape: ArrayLike<number>;
 }
 
@@ -36,8 +36,8 @@ export interface PoseSpaceOptions {
 }
 
 /**
- * Chosen so that weights stay tame: on Russell's plane with 16 to 22 expressions within −0.32 … 1.15 between the examples and within
- * −0.62 … 1.26 on the rest of the pad. The alternatives' numbers stand in `core/posespace/pose_space.hpp`.
+ * Chosen so that weights stay close to [0, 1]: on Russell's plane with 16 to 22 expressions within −0.32 … 1.15 between the examples and
+ * within −0.62 … 1.26 on the rest of the pad. Figures for the alternatives are in `core/posespace/pose_space.hpp`.
  */
 export const POSE_SPACE_DEFAULTS = { method: 'cardinal', kernel: 'auto', width: 'auto', degree: 'auto' } as const;
 
@@ -85,7 +85,7 @@ export class PoseSpace {
   readonly #query: number;
   readonly #weightsAt: number;
   readonly #weights: Float64Array;
-  /** shapeLength × examples: all that one number of the result needs lies together. */
+  /** shapeLength × examples: all that one number of the result needs is contiguous. */
   readonly #shapes: Float64Array;
   #space: number;
 
@@ -121,7 +121,7 @@ export class PoseSpace {
       }
       return heap.u32(out, 1)[0] ?? 0;
     });
-    // Taken once, so that a frame allocates nothing.
+    // Allocated once, so that a frame allocates nothing.
     this.#query = heap.alloc(dimensions.length * 8);
     this.#weightsAt = heap.alloc(count * 8);
   }
@@ -178,7 +178,7 @@ export class PoseSpace {
     this.dispose();
   }
 
-  /** Brings the weights at `at` into `#weights`. */
+  /** Computes the weights at `at` into `#weights`. */
   #solve(at: ArrayLike<number>): void {
     const space = this.#space;
     if (space === 0) {
@@ -326,7 +326,7 @@ function exampleAt(examples: readonly PoseExample[], index: number): PoseExample
   return examples[index] as PoseExample;
 }
 
-/** The solver counts only what it was given: says the culprit in the caller's numbers, and by name. */
+/** The solver numbers only the examples that it was given: translates the culprit's number into the caller's, and adds its name. */
 function nameCulprit(error: unknown, examples: readonly PoseExample[], kept: readonly number[]): unknown {
   if (!(error instanceof HandlebodyError) || error.culprit?.kind !== 'example') return error;
   const index = kept[error.culprit.index];

@@ -10,25 +10,25 @@ export interface RbfOptions extends ScatteredData {
   /** A name of {@link KERNELS}, or a function of s = r/width. */
   readonly kernel?: KernelName | KernelFunction | UserKernel;
   /**
-   * In units of the points, r/width enters the kernel. One number; one a center; `'auto'`, from the points' spacing; or `'leave-one-out'`, the
-   * one with the least leave-one-out error (some 25 fits).
+   * In units of the points; the kernel is a function of r/width. One number; one per center; `'auto'`, from the points' spacing; or
+   * `'leave-one-out'`, the one with the least leave-one-out error (some 25 fits).
    */
   readonly width?: number | ArrayLike<number> | 'auto' | 'leave-one-out';
-  /** Of the polynomial tail; −1 is none. `'auto'`: the lowest that the kernel needs. */
+  /** Degree of the polynomial tail; −1 is none. `'auto'`: the lowest that the kernel needs. */
   readonly degree?: -1 | 0 | 1 | 2 | 'auto';
   /** λ of R + λI (SciPy's `smoothing`), in units of the kernel: 0 interpolates. The polynomial part is not penalized. */
   readonly smoothing?: number;
   /** λ of min ‖Rw − d‖² + λ‖w‖² (2014 course, eq. (3)). */
   readonly weightDecay?: number;
-  /** Divides the kernels by their sum: weights stay tame, and constants are reproduced without a tail. */
+  /** Divides the kernels by their sum: weights stay small, and constants are reproduced without a tail. */
   readonly normalized?: boolean;
   /** Fewer centers than points, k × dimension: a least-squares fit. Left out, each point is one. */
   readonly centers?: ArrayLike<number>;
-  /** Which misfits a least-squares fit with `centers` believes: all; `'least-absolute'`, few large ones; `'least-median'`, the better half. */
+  /** Which points a least-squares fit with `centers` trusts: all; `'least-absolute'`, all but a few; `'least-median'`, the better half. */
   readonly robust?: 'least-absolute' | 'least-median';
   /** M of a Mahalanobis distance r² = xᵀMx, dimension × dimension, symmetric and positive definite. */
   readonly metric?: ArrayLike<number>;
-  /** Of the kernels 'polyharmonic' and 'clamped-plate', more than half the dimension: 2 is biharmonic, 3 triharmonic. */
+  /** Order of the kernels 'polyharmonic' and 'clamped-plate', more than half the dimension: 2 is biharmonic, 3 triharmonic. */
   readonly order?: number;
   /** Where the compact inverse multiquadric ends, in widths. */
   readonly support?: number;
@@ -111,7 +111,7 @@ export function resolve(heap: Heap, options: RbfOptions): ResolvedRbf {
   };
 }
 
-/** The lowest degree of the tail that makes the kernel regular. */
+/** The lowest degree of the tail that makes the interpolation matrix regular. */
 function lowestDegree(name: KernelName | 'custom', dimension: number, order: number, normalized: boolean): number {
   if (normalized || name === 'custom') return -1;
   if (name === 'polyharmonic') return Math.floor((2 * order - dimension) / 2);

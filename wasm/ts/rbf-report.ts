@@ -1,13 +1,13 @@
 import type { KernelName } from './kernels.ts';
 
-/** What a fit is worth. Lengths in units of the points. */
+/** How good a fit is. Lengths in units of the points. */
 export interface RbfReport {
   readonly kernel: KernelName | 'custom' | 'tension';
   /** The width that was used, or the mean of several. */
   readonly width: number;
   readonly degree: number;
   readonly centers: number;
-  /** Estimated 1-norm condition number: as many of the sixteen digits may be lost as it has. */
+  /** Estimated 1-norm condition number: of sixteen digits, as many may be lost as it has. */
   readonly condition: number;
   /** Largest misfit at a point. */
   readonly residual: number;
@@ -36,7 +36,7 @@ export interface RbfWarning {
   readonly suggestion?: { readonly width?: number; readonly smoothing?: number };
 }
 
-/** What becomes of a warning that nobody asked for. */
+/** Prints a warning where no `onWarning` was given. */
 export function printWarning({ message, remedy }: RbfWarning): void {
   console.warn(`${message} ${remedy}`);
 }

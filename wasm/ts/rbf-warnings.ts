@@ -2,7 +2,7 @@ import { KERNELS } from './kernels.ts';
 import type { RbfOptions } from './rbf-options.ts';
 import type { RbfReport, RbfWarning } from './rbf-report.ts';
 
-/** What a report tells beyond what it shows. */
+/** What warnings need beyond the report. */
 export interface WarningFacts {
   readonly options: RbfOptions;
   readonly dimension: number;
@@ -110,7 +110,7 @@ const narrowWidth: Check = ({ width, spacing, kernel }, { options }) => {
 };
 
 const notDefinite: Check = ({ kernel }, { dimension }) => {
-  // Of a kernel of their own the callers know, or want to find out; tension's is definite where it is defined.
+  // Callers know their own kernel, or want to find out; tension's is definite where it is defined.
   if (kernel === 'custom' || kernel === 'tension' || dimension <= KERNELS[kernel].definiteToDimension) return [];
   return [
     {

@@ -46,7 +46,7 @@ export class Rbf extends Interpolant {
     for (const warning of this.report().warnings) (options.onWarning ?? printWarning)(warning);
   }
 
-  /** What the fit is worth, and what to mind. */
+  /** How good the fit is, and its warnings. */
   report(): RbfReport {
     this.#report ??= readReport(this.heap, this.handle, {
       kernel: this.#kernel,

@@ -1,4 +1,4 @@
-/** What every entry exports besides its `load`. */
+/** What every entry module exports besides its `load`. */
 export { DualQuaternion } from './dual-quaternion.ts';
 export {
   type Culprit,

@@ -6,8 +6,8 @@ import { WASM_BYTES, WASM_DEFLATED_BASE64 } from './runtime-binary.generated.ts'
 export * from './runtime-api.ts';
 
 /**
- * Loads the smaller solver, for pages that move what was baked or weighted elsewhere, and interpolate. The wasm is inside this module, as
- * in "handlebody".
+ * Loads the smaller solver, for pages that interpolate, or deform with bodies and weights that were made elsewhere. The wasm is inside this
+ * module, as in "handlebody".
  *
  * ```ts
  * import { load } from 'handlebody/runtime';

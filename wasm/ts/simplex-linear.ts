@@ -3,7 +3,7 @@ import { Interpolant, type ScatteredData } from './interpolant.ts';
 import { type OutsideHull, outsideNumber } from './outside-hull.ts';
 
 export interface SimplexLinearOptions extends ScatteredData {
-  /** What to say outside the convex hull of the points: the value at its nearest point, or NaN. */
+  /** What to return outside the convex hull of the points: the value at its nearest point, or NaN. */
   readonly outside?: OutsideHull;
 }
 

@@ -2,13 +2,13 @@ import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 
-/** What moves by blending: rest positions and how much each handle has to say at each of them. */
+/** A shape that moves by blending: rest positions, and the weight of each handle at each of them. */
 export interface SkinOptions {
   /** n × dimension, row-major. */
   readonly positions: ArrayLike<number>;
   /** 2 in the plane, 3 (the default) in space. */
   readonly dimension?: 2 | 3;
-  /** n × h, row-major: one number a handle for every vertex. */
+  /** n × h, row-major: for every vertex one number per handle. */
   readonly weights: ArrayLike<number>;
 }
 
@@ -23,7 +23,7 @@ export abstract class Skin {
   readonly vertexCount: number;
   readonly handleCount: number;
   /**
-   * Where the handles take the shape: h × dimension × (dimension + 1), row-major, one matrix T a handle with the image T [v; 1]. The
+   * Where the handles take the shape: h × dimension × (dimension + 1), row-major, one matrix T per handle, which takes v to T [v; 1]. The
    * identity at first. Write it in place.
    */
   readonly transforms: Float64Array;
@@ -54,7 +54,7 @@ export abstract class Skin {
       return heap.u32(out, 1)[0] ?? 0;
     });
     this.#handle = handle;
-    // Taken once, so that a frame allocates nothing.
+    // Allocated once, so that a frame allocates nothing.
     this.#out = heap.alloc(vertexCount * dimension * 4);
     const transforms = heap.call((e) => e.hb_skin_transforms(handle));
     this.transforms = heap.f64(transforms, handleCount * dimension * (dimension + 1)).slice();
@@ -146,7 +146,7 @@ interface BlendArguments {
   readonly handleCount: number;
 }
 
-/** Vertices that the positions are of. */
+/** Number of vertices that have these positions. */
 function countRows(positions: ArrayLike<number>, dimension: number): number {
   if (dimension !== 2 && dimension !== 3) {
     throw new HandlebodyError('invalid-shape', {

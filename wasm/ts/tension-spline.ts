@@ -80,7 +80,7 @@ export class TensionSpline extends Interpolant {
     for (const warning of this.report()?.warnings ?? []) (options.onWarning ?? printWarning)(warning);
   }
 
-  /** What the fit is worth, and what to mind; `undefined` for zero-slope ends, whose equations are always good-natured. */
+  /** How good the fit is, and its warnings; `undefined` for zero-slope ends, whose equations are always well behaved. */
   report(): RbfReport | undefined {
     if (this.#ends === 'zero-slope') return undefined;
     this.#report ??= readReport(this.heap, this.handle, {

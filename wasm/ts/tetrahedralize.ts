@@ -5,7 +5,7 @@ import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
 import type { Mesh } from './types.ts';
 
 export interface TetrahedralizeOptions {
-  /** Voxels along the longest side of the surface's box, 4 to 256. Limbs closer than a voxel grow together. */
+  /** Voxels along the longest side of the surface's box, 4 to 256. Limbs closer than a voxel merge. */
   readonly resolution?: number;
 }
 
@@ -31,7 +31,7 @@ export class Tetrahedra implements SimplexMesh {
     this.coordinates = coordinates;
   }
 
-  /** Values at the surface's vertices (k numbers each) of values at the tetrahedra's (n×k): linear in each tetrahedron. */
+  /** Interpolates values at the tetrahedra's vertices (n×k) to the surface's vertices (k numbers each), linearly in each tetrahedron. */
   sample(values: ArrayLike<number>, out?: Float64Array): Float64Array {
     const count = this.positions.length / 3;
     const width = values.length / count;
@@ -61,8 +61,8 @@ export class Tetrahedra implements SimplexMesh {
 }
 
 /**
- * Fills a surface with tetrahedra: the voxels that it touches or encloses, six each (Kuhn's division). Weights of a solid know its inside,
- * and nothing of seams, thin parts or how finely the surface is meshed.
+ * Fills a surface with tetrahedra: the voxels that it touches or encloses, six each (Kuhn's division). Weights of a solid depend on its
+ * inside, and not on seams, thin parts or how finely the surface is meshed.
  *
  * ```ts
  * const solid = hb.tetrahedralize(dog, { resolution: 40 });

@@ -65,12 +65,12 @@ export interface BodyData {
 }
 
 /**
- * Distances inside the body: by fast marching; by heat, smoother and quicker on coarse grids; by mean value coordinates, which measure along
- * the surface and carry that inside; or through the air, for convex shapes and open sheets.
+ * Distances inside the body: by fast marching; by heat, smoother and quicker on coarse grids; by mean value coordinates, which extend
+ * distances along the surface to the inside; or in a straight line, for convex shapes and open sheets.
  *
- * What is not inside has an answer too. A point outside reads the nearest voxels inside, extrapolated over 1.5 of them at most, and so do
- * parts without volume ('part-outside' tells which). Surfaces that touch, or come closer than a voxel, run into one for fast marching and
- * heat ('limbs-merged' tells where), and stay apart for mean values unless they share vertices' places.
+ * Places outside have distances too. A point outside reads the nearest voxels inside, extrapolated over 1.5 of them at most, and so do
+ * parts without volume ('part-outside' tells which). Surfaces that touch, or come closer than a voxel, merge for fast marching and heat
+ * ('limbs-merged' tells where), and stay apart for mean values unless they share vertices' positions.
  */
 export type DistanceMethod = 'fast-marching' | 'heat' | 'mean-value' | 'euclidean';
 
@@ -84,12 +84,12 @@ export interface BakeOptions {
   readonly spheres?: number;
   /** Spheres along the skeleton, or from an octree: spread over the volume, more alike. */
   readonly packing?: 'skeleton' | 'tree';
-  /** For each vertex how dense centers are to be about it, relative to 1: where detail will be moved, more. */
+  /** For each vertex the density of centers around it, relative to 1: higher where detail will be moved. */
   readonly density?: ArrayLike<number>;
   readonly signal?: AbortSignal;
   /** Called with the part done, 0 to 1. */
   readonly onProgress?: (part: number) => void;
-  /** Told of what worked but perhaps not as meant. */
+  /** Called for each warning: something worked, but perhaps not as meant. */
   readonly onWarning?: (warning: BakeWarning) => void;
 }
 
@@ -110,8 +110,8 @@ export type Handle = ({ readonly vertex: number } | { readonly at: Vec3 }) & { r
 
 export interface IrbfOptions {
   /**
-   * Any radial kernel of scattered interpolation, or a function of s = d/width. The sum of the centers' kernels is divided by, so kernels
-   * that change sign may be refused.
+   * Any radial kernel of scattered interpolation, or a function of s = d/width. Kernels are divided by their sum over the centers, so
+   * kernels that change sign may be refused.
    */
   readonly kernel?: IrbfKernel | KernelFunction;
   /** The kernel's width h, in mean spacings of the centers. Smaller is more local. */
@@ -123,7 +123,7 @@ export interface IrbfOptions {
   readonly smoothness?: number | 'auto';
   /** 'soft' weighs the handles' misses by μ (appendix); 'hard' meets every target exactly (§4.6). */
   readonly constraints?: 'soft' | 'hard';
-  /** μ: how much an anchor counts beside a sphere's edge. */
+  /** μ: the weight of an anchor relative to a sphere's edge. */
   readonly anchorWeight?: number;
   /** α of eq. (8), the exponent of the edge length in a sphere's weight: −1 lets small spheres count as much as large ones. */
   readonly edgeExponent?: number;
@@ -141,7 +141,7 @@ export interface SolveOptions {
   readonly maxIterations?: number;
   /** Stop when no sphere edge moves more than this part of the model's diagonal in one iteration. */
   readonly tolerance?: number;
-  /** False for plain local/global iterations, to compare with: they take some hundred times as many. */
+  /** False for plain local/global iterations, to compare with: some hundred times as many are needed. */
   readonly accelerate?: boolean;
 }
 
@@ -155,7 +155,7 @@ export interface SolveReport {
   readonly converged: boolean;
 }
 
-/** How a deformation treats volume and shape (paper 001, §5), and what the equations are like. */
+/** How a deformation treats volume and shape (paper 001, §5), and the condition of the equations. */
 export interface IrbfReport extends SolveReport {
   /** λ, as given or as chosen. */
   readonly smoothness: number;
@@ -172,6 +172,6 @@ export interface IrbfReport extends SolveReport {
   readonly distortion: { readonly total: number; readonly max: number };
   /** Tetrahedra turned inside out. */
   readonly flips: number;
-  /** How many were measured: those given, or six a voxel. */
+  /** How many were measured: those given, or six per voxel. */
   readonly tetrahedra: number;
 }

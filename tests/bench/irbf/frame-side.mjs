@@ -30,7 +30,7 @@ while (irbf.solve({ maxIterations: 1, tolerance: 0 }).energy > 1.1 * converged) 
 
 const positions = new Float32Array(3 * irbf.vertexCount);
 let energy = 0;
-const times = inTurns(9, 1, {
+const times = inTurns(40, 1, {
   before,
   frame: () => {
     energy = irbf.solve({ maxIterations: iterations, tolerance: 0 }).energy;

@@ -11,13 +11,13 @@ namespace {
 
 // Lengths in spacings.
 //
-// What was tried, on the dog's 12,188 voxels at 96, native, in milliseconds a source (scikit-fmm of order 2: 3.7):
+// What was tried, on the dog's 12,188 voxels at 96, native, in milliseconds per source (scikit-fmm of order 2: 3.7):
 //   1.69  a binary heap with places to update; every update solves its equation and all simplices anew
 //   1.47  below, with buckets of 1/16 that are kept sorted: the order of a heap, and its accuracy
 //   1.05  unsorted buckets: an untidy queue (Yatziv, Bartesaghi & Sapiro 2006)
 //   0.89  lengths in spacings, reciprocals from a table, one record a voxel, no push within a bucket; in floats as fast
 //   0.83  lists for buckets, and the sides that need work found without branches: taken, in floats, which take half the memory
-// Buckets of 1/8 are 3% faster, but at 128 voxels the mean error in the L is 0.155% instead of 0.140%, which costs it order.
+// Buckets of 1/8 are 3% faster, but at 128 voxels the mean error in the L is 0.155% instead of 0.140%: the order falls.
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double ball_radius = 3.5;
 constexpr float buckets_per_spacing = 16;  // so that the ring spans 4
@@ -100,13 +100,13 @@ void FastMarching::push(std::int32_t voxel, std::int32_t bucket) {
   list = static_cast<std::int32_t>(used_++);
 }
 
-/** Neighbors of a voxel that has its final distance learn of it. Distances come in rising order, but for what a bucket holds, so
- * that the first neighbor along an axis is the nearer one, the axis' term never changes, and a new term is the last of the sum. */
+/** Updates the neighbors of a voxel whose distance is final. Distances come in rising order, except within a bucket. So the first
+ * neighbor along an axis is the nearer one, the axis' term never changes, and a new term is the last of the sum. */
 void FastMarching::accept(std::int32_t voxel) {
   const float distance = cells_[voxel].d;
   accepted_[voxel] = distance;
   axes_[voxel] = all_axes;
-  // The sides where there is something to do, without branches: which they are no processor foresees.
+  // Finds the sides that need work without branches, since no processor could predict them.
   const std::int32_t* sides = &neighbors_[6 * std::size_t(voxel)];
   unsigned todo = 0;
   for (int side = 0; side < 6; ++side) {
@@ -135,10 +135,10 @@ void FastMarching::accept(std::int32_t voxel) {
   }
 }
 
-/** The upwind update: an axis joins the equation Σ s²(d − t)² = 1; its neighbor a lies below the solution so far. The derivative
- * is one-sided, of second order (3d − 4a + b)/2 where the next voxel b is accepted too and not above a (Sethian 1999, §8.4), else
- *  d − a: in both cases s·(d − t), with s = 3/2, t = (4a − b)/3 or s = 1, t = a. False where there is no solution above a: the
- * equation is as good as it gets. */
+/** The upwind update: an axis joins the equation Σ s²(d − t)² = 1; its neighbor a lies below the solution so far. The derivative is
+ * one-sided, of second order (3d − 4a + b)/2 where the next voxel b is accepted too and not above a (Sethian 1999, §8.4), else
+ * d − a: in both cases s·(d − t), with s = 3/2, t = (4a − b)/3 or s = 1, t = a. False where there is no solution above a: no
+ * further axis can improve the distance. */
 bool FastMarching::join(Cell& cell, float a, float b) const {
   const bool second = b <= a;
   const float s2 = second ? 2.25f : 1, t = a - cell.base + (second ? (a - b) * (1.f / 3) : 0);
@@ -150,12 +150,12 @@ bool FastMarching::join(Cell& cell, float a, float b) const {
   return true;
 }
 
-/** Along a boundary the axes have no neighbors to look at, and a wave that creeps along a staircase takes every step the long way
- *  round: on a ring of 64 voxels the mean error is 2.0% without this update and 1.3% with it. So boundary voxels look at diagonal
- *  neighbors too: the least of linear interpolation plus Euclidean distance over the simplices face, edge, corner neighbor (w, u,
- *  c) of the 26-neighborhood (Tsitsiklis 1995). Only a chain of inside voxels is taken, and only one of falling distances can hold
- *  the least: so a voxel w that has just been accepted is the first of its chains, and has the same for both neighbors on an axis.
- */
+/** Along a boundary some axes have no neighbors, and a front along a staircase would follow every step: on a ring of 64 voxels the
+ *  mean error is 2.0% without this update and 1.3% with it. So boundary voxels use diagonal neighbors too: the minimum of linear
+ *  interpolation plus Euclidean distance over the simplices of a face, an edge and a corner neighbor (w, u, c) of the
+ *  26-neighborhood (Tsitsiklis 1995). Only chains w, u, c of inside voxels are tried, and only one of falling distances can give
+ *  the minimum: so the voxel w that has just been accepted is the first of its chains, and they are the same for both neighbors on
+ *  an axis. */
 float FastMarching::simplices(const std::int32_t* sides, float dw, int axis) const {
   float d = infinity;
   for (int other = 1; other < 3; ++other) {

@@ -6,7 +6,7 @@ namespace handlebody {
 namespace {
 
 constexpr int largest_radius = 3;
-constexpr std::int64_t least_deep = 20;  // one in so many: a fold of a sheet encloses less
+constexpr std::int64_t least_deep = 20;  // one enclosed voxel in so many must be deep: in a fold of a sheet, fewer are
 
 /** Sets all cells within `radius` of a set one, along each axis in turn: a cube. */
 void dilate(const Grid& grid, std::vector<std::uint8_t>& cells, int radius) {
@@ -34,7 +34,7 @@ void dilate(const Grid& grid, std::vector<std::uint8_t>& cells, int radius) {
   }
 }
 
-/** The cells that a flood from the grid's border reaches through faces, without those set. */
+/** The cells that a flood through faces from the grid's border reaches, around those that are set. */
 std::vector<std::uint8_t> flood(const Grid& grid, const std::vector<std::uint8_t>& blocked) {
   std::vector<std::uint8_t> reached(blocked.size());
   std::vector<std::int64_t> queue;

@@ -9,8 +9,8 @@ namespace handlebody {
 
 namespace {
 
-// Lengths in spacings. Measured in the box, the L and the ring of the tests, 64 voxels across, as mean / largest error in percent
-// five spacings from the source on (Dirichlet means no heat at the surface, half a spacing beyond the outermost centers):
+// Lengths in spacings. Measured in the box, the L and the ring of the tests, 64 voxels across: mean / largest error in percent at
+// five spacings from the source or more (Dirichlet means no heat at the surface, half a spacing beyond the outermost centers):
 //
 //                                        t    box         L           ring
 //   7-point,   Dirichlet                 0.2  0.00 / 1.7  0.12 / 4.4  1.5 / 9.7    taken
@@ -30,11 +30,11 @@ namespace {
 constexpr double heat_time = 0.2;
 constexpr double ball_radius = 3.5;
 constexpr double source_decay = 4;  // of the heat that the ball starts with; steeper than the flow's, so that it acts as one source
-constexpr double part_cost = 2e8;   // multiplications of a step
+constexpr double part_cost = 2e8;   // multiplications per step
 constexpr double most_bytes = 1.5 * 1024 * 1024 * 1024;
 
-// Heat falls by up to 1e-1.2 a voxel, and leaves the range of double after some 250 of them. What is left is scaled up there and
-// flows on as a source of its own.
+// Heat falls by a factor of up to 1e-1.2 per voxel, and leaves the range of double after some 250 of them. There the remaining heat
+// is scaled up, and becomes the source of another flow.
 constexpr double relay_high = 1e-240, relay_low = 1e-260, trusted = 1e-250;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -66,8 +66,8 @@ Result<double> HeatDistance::step() {
   }
 }
 
-/** L of the differences between face neighbors; I + t (L + the losses at the surface), and L with one voxel of each connected part
- *  held at 0. The first is an M-matrix and heat is positive, so that nothing cancels: however small, it keeps its digits. */
+/** With L of the differences between face neighbors: I + t (L + the losses at the surface), and L with one voxel of each connected
+ *  part held at 0. The first is an M-matrix and heat is positive, so nothing cancels: even tiny heat keeps its digits. */
 void HeatDistance::assemble() {
   neighbors_ = domain_->face_neighbors();
   components_ = face_components(*domain_);
@@ -87,7 +87,7 @@ void HeatDistance::assemble() {
       laplacian.insertBack(v, u) = -1;
       if (u != v) ++inside;
     }
-    // Half a spacing from the voxel to the surface makes its conductance 2.
+    // The surface is half a spacing from the voxel: the conductance between them is 2.
     heat_diagonal[v] = 1 + heat_time * (inside + 2 * (6 - inside));
     const bool held = components_[v] == parts;  // the first voxel of its part
     if (held) ++parts;
@@ -137,7 +137,7 @@ void HeatDistance::measure(const Vector3& source, double* distances) {
   }
   integrate(part);
 
-  // The solution is known up to a constant, which the ball tells.
+  // The solution is determined up to a constant, which follows from the exact distances in the ball.
   double shift = 0;
   for (const std::int32_t v : ball_) shift += (domain_->center(v) - source).norm() / h - heat_field_[v];
   shift /= static_cast<double>(ball_.size());
@@ -170,8 +170,8 @@ void HeatDistance::start(std::int32_t first, const Vector3& source) {
   }
 }
 
-/** X = −∇u/|∇u| at the voxels of a part that are not settled yet and warm enough. Beyond a missing neighbor u goes on as it came:
- *  u²/u_other. If some are left cold, the heat field becomes the source of another flow, and the answer is true. */
+/** X = −∇u/|∇u| at the voxels of a part that are not settled yet and warm enough. Beyond a missing neighbor u is extrapolated as
+ *  u²/u_other. If some voxels are still cold, the heat field becomes the source of another flow, and the answer is true. */
 bool HeatDistance::point_along_gradient(std::int32_t part) {
   const auto count = static_cast<std::int32_t>(domain_->size());
   bool cold = false, progress = false;

@@ -26,9 +26,9 @@ class HeatDistance {
  public:
   explicit HeatDistance(const VoxelDomain& domain) : domain_(&domain) {}
 
-  /** A bounded part of the factoring (some tens of milliseconds, a few hundred to order a million voxels). Returns the part done;
-   *  at 1 all is ready, and further calls do nothing. Fails with OUT_OF_MEMORY where the two factors would take more than 1.5 GiB,
-   *  before any of it is allocated. */
+  /** A bounded part of the factorization (some tens of milliseconds; a few hundred for ordering a million voxels). Returns the
+   *  fraction done; at 1 all is ready, and further calls do nothing. Fails with OUT_OF_MEMORY where the two factors would take more
+   *  than 1.5 GiB, before any of it is allocated. */
   Result<double> step();
 
   /** Interior distances from `source` (anywhere in or near the domain) to every voxel center, into `distances` (domain.size()), in

@@ -11,7 +11,7 @@ namespace handlebody {
 
 enum class DistanceMethod : unsigned {
   fast_marching = 0,
-  euclidean = 1,  // for convex shapes, and to see what interior distances buy
+  euclidean = 1,  // for convex shapes, and to compare with interior distances
   heat = 2,
   mean_value = 3,
 };
@@ -26,11 +26,11 @@ class InteriorDistance {
   virtual Result<double> step() { return 1.0; }
 
   /** Interior distances from `source` (anywhere in or near the domain) to every voxel center, into `distances` (domain.size());
-   *  +infinity where there is no way. */
+   *  +infinity where there is no path. */
   virtual void measure(const Vector3& source, double* distances) = 0;
 };
 
-/** Mean value distances take the surface too, in the domain's units: they fail with MESH_OPEN, MESH_NOT_CONNECTED or OUT_OF_MEMORY
+/** Mean value distances also need the surface, in the domain's units: they fail with MESH_OPEN, MESH_NOT_CONNECTED or OUT_OF_MEMORY
  *  (see mean_value_distance.hpp). */
 Result<std::unique_ptr<InteriorDistance>> make_interior_distance(DistanceMethod method, const VoxelDomain& domain,
                                                                  const Points& positions, const Triangles& triangles);

@@ -21,7 +21,7 @@ class InteriorSamples {
   const Vector3& point(Index i) const { return points_[i]; }
 
   /** The field that stencils interpolate, at the voxels that they use: the ratio of interior to Euclidean distance from `center`.
-   * It is 1 in view of the center, so that the cone there is exact. `interior(v)` is the interior distance of voxel v. */
+   * It is 1 in view of the center, so that distances there are exact. `interior(v)` is the interior distance of voxel v. */
   template <typename Interior>
   void distance_ratios(const Vector3& center, const Interior& interior, std::vector<double>& ratios) const {
     ratios.resize(voxels_.size());
@@ -105,11 +105,11 @@ class InteriorSamples {
  private:
   std::vector<Vector3> points_;
   std::vector<std::size_t> offsets_{0};
-  std::vector<std::uint32_t> slots_;  // of each stencil's voxels among those used
+  std::vector<std::uint32_t> slots_;  // of each stencil: indices into voxels_
   std::vector<double> weights_;
   std::vector<std::uint32_t> voxels_;   // used by any stencil
   std::vector<Vector3> places_;         // their centers
-  std::vector<std::uint32_t> slot_of_;  // of each voxel of the domain, or `unused`
+  std::vector<std::uint32_t> slot_of_;  // of each voxel of the domain: its index in voxels_, or `unused`
 };
 
 }  // namespace handlebody

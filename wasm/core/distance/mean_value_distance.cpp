@@ -15,11 +15,11 @@ namespace handlebody {
 namespace {
 
 constexpr double most_bytes = 1.5 * 1024 * 1024 * 1024;
-constexpr double least_eigenvalue = 1e-4;  // of the largest: smaller ones are the distances' errors
+constexpr double least_eigenvalue = 1e-4;  // of the largest: smaller ones are errors of the distances
 constexpr Index voxels_per_step = 256;
 constexpr Index vertices_at_once = 256;  // turned into doubles for a product
 
-/** Every edge is passed as often one way as the other. */
+/** Fails unless every edge is traversed as often one way as the other. */
 Result<Done> check_closed(const Triangles& triangles, const Indices& original) {
   const std::uint32_t* const corners = triangles.data();
   const auto count = static_cast<std::size_t>(3 * triangles.rows());
@@ -132,7 +132,7 @@ double MeanValueDistance::step() {
   return 1;
 }
 
-/** Farthest points make the landmarks. */
+/** Measures from the newest landmark, and makes the vertex farthest from all of them the next one. */
 void MeanValueDistance::add_landmark() {
   const Index column = std::ssize(landmarks_) - 1;
   geodesics_->measure(landmarks_.back(), from_landmark_.data());
@@ -154,7 +154,7 @@ void MeanValueDistance::add_landmark() {
 }
 
 /** Classical scaling of the landmarks, B = −½ J D² J = Σ λₖ uₖ uₖᵀ, and of any vertex from its squared distances δ to them: its
- *  coordinate k is ½ uₖ·(μ − δ)/√|λₖ|, with the sign of λₖ, μ being the mean of D²'s columns. */
+ *  coordinate k is ½ uₖ·(μ − δ)/√|λₖ|, with the sign of λₖ, where μ is the mean of D²'s columns. */
 void MeanValueDistance::embed() {
   const Index count = squared_.cols();
   MatrixXd b(count, count);

@@ -1,17 +1,17 @@
-// Distances along the surface, carried inside by mean value coordinates (Rustamov, Lipman & Funkhouser 2009; paper 001, §4.1
-// "MVC").
+// Distances along the surface, extended to the inside by mean value coordinates (Rustamov, Lipman & Funkhouser 2009; paper 001,
+// §4.1 "MVC").
 //
 // With D the distances between surface vertices and w(p) the coordinates of p,
 //
 //    d(p, q)² = −½ (w(p) − w(q))ᵀ D² (w(p) − w(q)),      D² entry by entry,
 //
-// which for vertices is the distance along the surface. D² is as large as the mesh squared, so it is taken through `landmarks`
+// which for vertices is the distance along the surface. D² is as large as the mesh squared, so it is approximated from `landmarks`
 // vertices: it has few large eigenvalues, and every vertex gets `coordinates` numbers x with D²ᵢⱼ ≈ Σₖ ±ₖ (xᵢₖ − xⱼₖ)² (landmark
-// multidimensional scaling, de Silva & Tenenbaum 2004). Distances along surfaces are no Euclidean ones, hence the signs; leaving
-// out the negative ones would make distances a third too long. x is carried to the voxels once; a center costs one pass over them.
+// multidimensional scaling, de Silva & Tenenbaum 2004). Distances along surfaces are not Euclidean, hence the signs; without
+// negative ones they would be a third too long. x is extended to the voxels once; a center costs one pass over them.
 //
-// What it measures: paths along the surface, not through the inside. Round a limb they are as long as half its girth, and across a
-// thin plate as long as the way round its rim. But surfaces that touch without being joined, as a clam's closed lips, stay apart
+// It measures paths along the surface, not through the inside. Across a limb they are as long as half its girth, and across a thin
+// plate as long as the path around its rim. But surfaces that touch without being joined, like a clam's closed lips, stay apart
 // however coarse the grid is, which no method on voxels can do.
 #pragma once
 
@@ -33,8 +33,8 @@ class MeanValueDistance {
   static constexpr Index most_landmarks = 64, most_coordinates = 32;
 
   /** Checks the surface, in the domain's units (solver space), which must be closed and of one connected part: vertices at one
-   *  position count as one, triangles without three different corners are passed over, and either side may be out. Positions must
-   *  be finite and indices in range. The domain must outlive the object.
+   *  position count as one, triangles without three different corners are ignored, and it may face either way. Positions must be
+   *  finite and indices in range. The domain must outlive the object.
    *  @errors MESH_OPEN (an edge without a triangle on its other side: the culprit), MESH_NOT_CONNECTED (a triangle of another part
    *          is the culprit), OUT_OF_MEMORY (refused before allocating) */
   static Result<MeanValueDistance> begin(const ConstPoints& positions, const ConstTriangles& triangles, const VoxelDomain& domain);
@@ -62,7 +62,7 @@ class MeanValueDistance {
   Phase phase_ = Phase::landmarks;
   std::optional<SurfaceGeodesics> geodesics_;
   std::vector<std::uint32_t> landmarks_;
-  std::vector<double> from_landmark_, coverage_;  // of each vertex: from the last landmark, from the nearest
+  std::vector<double> from_landmark_, coverage_;  // distances of each vertex: from the last landmark, from the nearest
   MatrixF squared_;                               // vertices × landmarks: squared distances
   std::vector<float> signs_;                      // of the coordinates: +1 or −1
   std::unique_ptr<MeanValueField> field_;         // the coordinates on the surface

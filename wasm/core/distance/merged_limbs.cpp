@@ -8,7 +8,7 @@
 namespace handlebody {
 namespace {
 
-constexpr int detour = 8;  // voxels; the paper's geodesics go round a crotch in less
+constexpr int detour = 8;  // voxels; the paper's geodesics around a crotch are shorter
 constexpr std::size_t most_links = 4000;
 
 }  // namespace
@@ -42,7 +42,7 @@ MergedLimbs find_merged_limbs(const VoxelDomain& domain, const std::vector<Cross
   if (links.empty()) return merged;
   const std::vector<std::int32_t> neighbors = domain.face_neighbors();
   const auto none = static_cast<std::int32_t>(domain.size());
-  // A bit for each side of a voxel that is a crossed link, and room for the links that matter.
+  // A bit for each side of a voxel that is a crossed link.
   std::vector<std::uint8_t> cut(static_cast<std::size_t>(none) + 1);
   for (const CrossedLink& link : links) {
     for (int side = 0; side < 6; ++side) {

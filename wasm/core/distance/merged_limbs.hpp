@@ -1,4 +1,4 @@
-// Where a grid is too coarse: neighboring inside voxels with outside between them, so that distances leap from limb to limb.
+// Where a grid is too coarse: there is outside between neighboring inside voxels, so that distances leap from limb to limb.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ struct CrossedLink {
   double gap;             // how far apart the surface's two sides are there, in spacings
 };
 
-/** Appends the crossed links of one axis. For a closed surface outside is where it does not wind; for another one, between two
- *  crossings. */
+/** Appends the crossed links of one axis. Outside a closed surface is where its winding number is 0; of an open one, anything
+ *  between two crossings. */
 void find_crossed_links(const VoxelDomain& domain, const SurfaceCrossings& crossings, bool closed, std::vector<CrossedLink>& links);
 
 struct MergedLimbs {
-  Index links = 0;                  // that join what is far apart
+  Index links = 0;                  // number of links that join distant parts
   Vector3 place = Vector3::Zero();  // the middle of the largest cluster of them, solver space
-  double gap = 0;                   // the narrowest there but for a tenth, in spacings
+  double gap = 0;                   // tenth percentile of the gaps there, in spacings
 };
 
-/** Of the crossed links those that matter: without crossed links the way from one end to the other is longer than eight voxels. In
- * a narrowing crease, which no grid resolves to its end, it is shorter. Of more than 4,000 links a sample is looked at. */
+/** The crossed links that matter: those where the path from one end to the other without crossed links is longer than eight voxels.
+ * In a narrowing crease, which no grid resolves to its end, it is shorter. Of more than 4,000 links a sample is examined. */
 MergedLimbs find_merged_limbs(const VoxelDomain& domain, const std::vector<CrossedLink>& links);
 
 }  // namespace handlebody

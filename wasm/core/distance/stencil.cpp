@@ -72,10 +72,10 @@ void gather(const VoxelDomain& domain, const Vector3& p, std::int32_t nearest, d
   }
 }
 
-/** Weights of the value at p of the linear function that fits best (Lancaster & Salkauskas 1981): with normalized weights θ, mean m
- *  and covariance C of the places, wᵢ = θᵢ (1 + (xᵢ − m)ᵀ C⁺ (p − m)). C⁺ inverts eigenvalues above `spanned` exactly and fades the
- *  others out to 0, so that a direction that the places barely span gives up its slope smoothly; the whole slope gives way to Σ|w|
- *  ≤ 3. */
+/** Weights for the value at p of the linear function that fits best (Lancaster & Salkauskas 1981): with normalized weights θ, mean
+ *  m and covariance C of the places, wᵢ = θᵢ (1 + (xᵢ − m)ᵀ C⁺ (p − m)). C⁺ inverts eigenvalues above `spanned` exactly and fades
+ *  the others out to 0, so that the slope along a direction that the places barely span vanishes smoothly; the whole slope is
+ *  reduced as far as Σ|w| ≤ 3 requires. */
 void moving_least_squares(const Vector3& p, double radius, const std::vector<Vector3>& places, std::vector<double>& weights) {
   const std::size_t n = places.size();
   weights.resize(n);

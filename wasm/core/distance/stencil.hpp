@@ -11,7 +11,7 @@
 namespace handlebody {
 
 /** Weights that sum to 1 and reproduce linear functions wherever the voxels used span them. Their magnitudes sum to at most 3,
- *  which takes from the slope only in the outermost corners. */
+ *  which reduces the slope only in the outermost corners. */
 struct Stencil {
   std::vector<std::int32_t> voxels;  // compact voxel numbers
   std::vector<double> weights;

@@ -15,8 +15,8 @@ struct Place {
   double u, v;
 };
 
-/** Which side of the edge from p to q the line x runs on, +1 left or −1 right; a line through the edge is taken to run beside it, a
- *  little farther along u and much less along v. 0 for an edge without length. */
+/** Which side of the edge from p to q the line x runs on, +1 left or −1 right; a line through the edge counts as displaced, a
+ *  little along u and much less along v. 0 for an edge without length. */
 int side_of(const Place& p, const Place& q, const Place& x) {
   const double du = q.u - p.u, dv = q.v - p.v;
   const double area = du * (x.v - p.v) - dv * (x.u - p.u);
@@ -45,8 +45,8 @@ std::int64_t SurfaceCrossings::stride() const {
   return axis_ == 0 ? 1 : axis_ == 1 ? grid_.dims[0] : std::int64_t{grid_.dims[0]} * grid_.dims[1];
 }
 
-/** A line that meets the triangle's projection, seen as a winding number in the plane: a ray along u crosses the edges that
- *  straddle its v, each upward to the right of the line or downward to its left. */
+/** Finds the lines that meet the triangle's projection, by winding numbers in the plane: of the edges that straddle a line's v, a
+ *  ray from it along u crosses those that go up with the line on their left, or down with it on their right. */
 bool SurfaceCrossings::add(const Points& positions, const std::uint32_t* corners) {
   Place place[3];
   double along[3];
@@ -75,7 +75,7 @@ bool SurfaceCrossings::add(const Points& positions, const std::uint32_t* corners
       int winding = 0;
       for (int c = 0; c < 3; ++c) {
         const int d = c == 2 ? 0 : c + 1;
-        const bool rises = corners[c] < corners[d];  // one order for both triangles of an edge
+        const bool rises = corners[c] < corners[d];  // the same order for both triangles of an edge
         const Place &p = rises ? place[c] : place[d], &q = rises ? place[d] : place[c];
         if ((p.v <= x.v) == (q.v <= x.v)) continue;
         const int upward = p.v <= x.v ? 1 : -1;

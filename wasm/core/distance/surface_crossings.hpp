@@ -1,4 +1,4 @@
-// Where the lines of voxel centers cross a surface: inside and outside of a closed one exactly, and which voxels it parts.
+// Where the lines of voxel centers cross a surface: exactly what is inside a closed one, and which neighboring voxels it separates.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class SurfaceCrossings {
   SurfaceCrossings(const Grid& grid, int axis);
 
   /** False when the surface crosses lines too often to keep (4 million times): give up then. `corners` are the triangle's vertex
-   *  numbers, welded: two triangles that share an edge decide alike on which side of it a line runs, so that a closed surface's
-   *  signs add up to 0 on every line, whatever the rounding. */
+   *  numbers, welded: two triangles that share an edge agree on which side of it a line runs, so that a closed surface's signs add
+   *  up to 0 on every line, whatever the rounding. */
   bool add(const Points& positions, const std::uint32_t* corners);
   void finish();
 
@@ -48,7 +48,7 @@ class SurfaceCrossings {
   std::vector<Crossing> sorted_;
 };
 
-/** The voxels about which a closed surface winds, whichever way; ascending. `crossings` are those along x. */
+/** The voxels around which a closed surface winds, in either direction; ascending. `crossings` are those along x. */
 std::vector<std::uint32_t> enclosed_voxels(const Grid& grid, const SurfaceCrossings& crossings);
 
 /** The voxels nearest to the crossings, appended in any order, more than once each. */

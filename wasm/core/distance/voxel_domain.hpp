@@ -65,9 +65,9 @@ class VoxelDomain {
 std::vector<std::int32_t> face_components(const VoxelDomain& domain);
 
 /** Joins separate face-connected parts of a voxel set by one-voxel-wide bridges along their shortest gaps, so that every interior
- *  distance is finite (eyes in a head, buttons on a coat). The bridges are a minimum spanning tree of the parts, a gap being as
- *  long as it has voxels to fill; the work is linear in the part of the grid that lies within the longest gap. `voxels` ascends
- *  before and after. Returns how many bridges it laid. */
+ *  distance is finite (eyes in a head, buttons on a coat). The bridges are a minimum spanning tree of the parts, where the length
+ *  of a gap is the number of voxels to fill; the work is linear in the part of the grid that lies within the longest gap. `voxels`
+ *  ascends before and after. Returns how many bridges it laid. */
 int bridge_components(const Grid& grid, std::vector<std::uint32_t>& voxels);
 
 }  // namespace handlebody

@@ -33,7 +33,7 @@ bool touches(const std::array<Vector3, 3>& p, double half) {
   return true;
 }
 
-/** Calls `visit` with each voxel that triangle t touches; 1 − `slack` is how much of a voxel counts. */
+/** Calls `visit` with each voxel that triangle t touches, where the voxels are scaled by 1 − `slack`. */
 template <typename Visit>
 void for_each_touched(const Grid& grid, const ConstPoints& positions, const ConstTriangles& triangles, Index t, double slack,
                       const Visit& visit) {
@@ -58,8 +58,7 @@ void for_each_touched(const Grid& grid, const ConstPoints& positions, const Cons
   }
 }
 
-/** The voxels that are inside or touched. A face that runs between voxels counts for those inside; for both sides where neither is.
- */
+/** The voxels that are inside or touched. A triangle that lies between two voxels marks both, unless one is marked already. */
 std::vector<char> mark_voxels(const Grid& grid, const ConstPoints& positions, const ConstTriangles& triangles) {
   std::vector<char> marked(static_cast<std::size_t>(grid.size()), 0);
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -75,8 +74,7 @@ std::vector<char> mark_voxels(const Grid& grid, const ConstPoints& positions, co
   return marked;
 }
 
-/** Finds a marked voxel that holds the place, or is as near as can be; `part` becomes the place within it, 0 to 1 along each axis.
- */
+/** Finds a marked voxel that contains the place, or the nearest one; `part` becomes the place within it, 0 to 1 along each axis. */
 std::array<std::int32_t, 3> locate(const Grid& grid, const std::vector<char>& marked, const Vector3& place,
                                    std::array<double, 3>& part) {
   std::array<std::int32_t, 3> cell;
@@ -94,8 +92,8 @@ std::array<std::int32_t, 3> locate(const Grid& grid, const std::vector<char>& ma
     if (squared < least) least = squared, best = {i, j, k};
   };
   consider(cell[0], cell[1], cell[2]);
-  // On the border between two voxels the other one may be the marked one; far from all, a vertex in no triangle, every one is
-  // asked.
+  // On the border between two voxels the other one may be the marked one. A vertex in no triangle may be far from all marked
+  // voxels: then all are searched.
   for (int k = -1; k <= 1 && !(least < near); ++k)
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) consider(cell[0] + i, cell[1] + j, cell[2] + k);
@@ -155,7 +153,7 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
     const Vector3 place = (positions.row(static_cast<Index>(p)).transpose() - grid.origin) / grid.spacing;
     std::array<double, 3> part;
     const std::array<std::int32_t, 3> cell = locate(grid, marked, place, part);
-    // In the tetrahedron whose axes come in the order of the parts, coordinates are their differences.
+    // The place is in the tetrahedron whose axes have descending parts; coordinates are the differences of these.
     std::array<int, 3> order{0, 1, 2};
     if (part[order[0]] < part[order[1]]) std::swap(order[0], order[1]);
     if (part[order[1]] < part[order[2]]) std::swap(order[1], order[2]);

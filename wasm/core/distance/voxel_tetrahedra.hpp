@@ -18,9 +18,9 @@ struct VoxelTetrahedra {
   std::vector<std::array<double, 4>> coordinates;
 };
 
-/** `surface` is a triangle mesh in space: closed, or it encloses nothing and gets the voxels that it touches. Cubes, `resolution`
- * (4 to 256) along the longest side of its box. Limbs that come closer than a voxel grow together: raise the resolution then. Fails
- * as check_simplex_mesh() and make_grid() do, or with INVALID_OPTION. */
+/** `surface` is a triangle mesh in space; an open one encloses nothing and gets only the voxels that it touches. Cubes,
+ * `resolution` (4 to 256) along the longest side of its box. Limbs that come closer than a voxel merge: raise the resolution then.
+ * Fails as check_simplex_mesh() and make_grid() do, or with INVALID_OPTION. */
 Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int resolution);
 
 }  // namespace handlebody

@@ -13,8 +13,8 @@
 
 namespace handlebody {
 
-/** What went wrong, whose fault it is, and what to do about it; shown to people as written. Made and unmade out of line: there are
- *  sixty places that do. */
+/** What went wrong, whose fault it is, and what to do about it; shown to people as written. Constructors and destructor are out of
+ *  line, because sixty places use them. */
 struct Error {
   Error(hb_status code, std::initializer_list<Word> message, std::initializer_list<Word> remedy,
         hb_culprit culprit = HB_CULPRIT_NONE, std::int64_t index = -1);

@@ -54,14 +54,14 @@ typedef enum hb_status {
   HB_ERROR_KERNEL_FAILED = 92      /* a kernel of the caller's threw, or gave a number that is not finite */
 } hb_status;
 
-/* What a bake may say besides its body: it worked, but perhaps not as meant. Names and numbers are as stable as those of errors. */
+/* What a bake may report besides its body: it worked, perhaps not as meant. Names and numbers are as stable as those of errors. */
 typedef enum hb_warning_code {
   HB_WARNING_SURFACE_OPEN = 1,      /* nothing lies inside: Euclidean distances over the surface's own voxels */
   HB_WARNING_MESH_INSIDE_OUT = 2,   /* the surface encloses a negative volume: triangles face inward */
   HB_WARNING_LIMBS_MERGED = 3,      /* the grid is too coarse to separate parts: distances leap across a gap */
   HB_WARNING_PART_OUTSIDE = 4,      /* vertices far from all voxels inside: parts without volume, or thinner than a voxel */
   HB_WARNING_ORIENTATION_MIXED = 5, /* neighboring triangles face opposite ways */
-  HB_WARNING_SURFACE_FILLED = 6 /* triangles do not tell inside from outside: what they enclose as a shell of voxels was taken */
+  HB_WARNING_SURFACE_FILLED = 6 /* triangles do not tell inside from outside: what a shell of voxels along them encloses was used */
 } hb_warning_code;
 
 /* What an error's index points at. */

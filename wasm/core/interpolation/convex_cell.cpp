@@ -20,7 +20,7 @@ void cross(const Side& a, const Side& b, const Side& from, const Side& to, doubl
   const double y = a.offset * a.normal[1] + along * a.normal[0];
   const double behind = (x - from.vertex[0]) * (x - to.vertex[0]) + (y - from.vertex[1]) * (y - to.vertex[1]);
   const Side& end = std::abs(from.excess) < std::abs(to.excess) ? from : to;
-  // Not between them where rounding decides: then the lines coincide as far as doubles can tell, and an end is as good.
+  // If rounding puts it elsewhere, the lines coincide as far as doubles can tell, and an end is as good.
   const bool between = behind <= 0 && end.excess != 0;
   at[0] = between ? x : end.vertex[0];
   at[1] = between ? y : end.vertex[1];
@@ -55,7 +55,7 @@ void ConvexCell::cut(double normal_x, double normal_y, double offset, Index owne
   }
   if (count_ == 0 || !(side(farthest).excess > 0)) return;
 
-  // The vertices beyond the line are neighbors of the farthest one: `first` to `last`, around the end of the list maybe.
+  // The vertices beyond the line are neighbors of the farthest one: `first` to `last`, which may wrap around the list's end.
   Index beyond = 1, first = farthest, last = farthest;
   for (; beyond < count_ && before(first).excess > 0; ++beyond) first = first > 0 ? first - 1 : count_ - 1;
   for (; beyond < count_ && after(last).excess > 0; ++beyond) last = last + 1 < count_ ? last + 1 : 0;
@@ -64,7 +64,7 @@ void ConvexCell::cut(double normal_x, double normal_y, double offset, Index owne
     return;
   }
 
-  // The sides between them go; the new one takes their place, at the end of the list.
+  // The sides between them are removed; the new one takes their place, at the end of the list.
   Side line{{normal_x, normal_y}, offset, owner, {0, 0}, 0};
   cross(after(last), line, side(last), after(last), line.vertex);
   const Index left = count_ - beyond + 1;

@@ -16,7 +16,7 @@ class ConvexCell {
   struct Side {
     double normal[2];  // of length 1
     double offset;
-    Index owner;       // whose it is: a number of the caller's, or `box`
+    Index owner;       // the caller's number for it, or `box`
     double vertex[2];  // where it ends and the next begins
     double excess;     // scratch of cut(): how far the vertex is beyond the line
   };

@@ -10,7 +10,7 @@ namespace {
 constexpr double outside = 1e-12;      // distance beyond a facet
 constexpr double rounding = 1e-15;     // of a power
 constexpr double slack = 1e-2;         // part of a tie that a pivot may spend on a larger divisor
-constexpr double poor = 1e-3;          // a divisor that spoils digits
+constexpr double poor = 1e-3;          // a divisor that loses digits
 constexpr Index pivots_a_factor = 32;  // then the inverse is made anew
 constexpr Index pivots_a_point = 20;   // the bound on a walk
 
@@ -29,7 +29,7 @@ DelaunayCell::DelaunayCell(const Matrix& points)
       powers_(points.rows()),
       rates_(points.rows()) {
   members_.reserve(points.rows());
-  // The first simplex: unit vectors, free and without cost, leave one after the other, and the plane stays below all points.
+  // The first simplex: unit vectors, unrestricted and without cost, leave one by one, and all points stay above the plane.
   measure(place_.data());
   inverse_.setIdentity();
   for (Index row = 0; row <= points.cols(); ++row) enter(row, 0);
@@ -67,8 +67,7 @@ double DelaunayCell::steepness(Index row) const {
   return std::sqrt(squared);
 }
 
-/** Puts a point into the basis: one step of Gauss and Jordan makes column_, which holds its barycentric coordinates, a unit vector.
- */
+/** Puts a point into the basis: one Gauss–Jordan step makes column_, which holds its barycentric coordinates, a unit vector. */
 void DelaunayCell::pivot(Index row, std::uint32_t point) {
   basis_[row] = point;
   age_ = std::abs(column_[row]) < poor ? pivots_a_factor : age_ + 1;
@@ -77,7 +76,7 @@ void DelaunayCell::pivot(Index row, std::uint32_t point) {
     if (k != row) inverse_.row(k) -= column_[k] * inverse_.row(row);
 }
 
-/** The inverse of the basis, which may come out in another order. */
+/** The inverse of the basis, whose points may be reordered. */
 void DelaunayCell::factor() {
   former_ = basis_;
   std::fill(basis_.begin(), basis_.end(), no_index);
@@ -106,8 +105,8 @@ void DelaunayCell::raise_plane() {
   for (Index i = 0; i < points_.rows(); ++i) powers_[i] = std::max(costs_[i] - affine(plane_.data(), i), 0.0);
 }
 
-/** Turns the plane about all points of the basis but that of `row`, to which side the points beyond (direction −1) or before (1)
- * the facet or those farthest from it (0) tell, until it meets one of these: that takes the place. False where there are none. */
+/** Turns the plane about all points of the basis but that of `row`, toward the points beyond the facet (direction −1), before it
+ * (1) or on the side of the farthest (0), until it meets one, which replaces that of `row`. False where there are none. */
 bool DelaunayCell::enter(Index row, double direction) {
   const Index n = points_.rows();
   raise_plane();
@@ -139,7 +138,7 @@ bool DelaunayCell::enter(Index row, double direction) {
   return true;
 }
 
-/** Whether the plane has not risen for long. From there on the first point wins all ties, and pivots cannot go in circles. */
+/** Whether the plane has not risen for long. From then on the first point wins all ties (Bland's rule), and pivots cannot cycle. */
 bool DelaunayCell::bland() const {
   return idle_ > 2 * points_.cols() + 8;
 }
@@ -157,7 +156,7 @@ bool DelaunayCell::walk() {
     }
     const bool crossed = leaving >= 0 && enter(leaving, -1);
     if (!crossed && age_ == 0) return leaving < 0;
-    if (!crossed || age_ >= pivots_a_factor) factor();  // verdicts need a fresh inverse
+    if (!crossed || age_ >= pivots_a_factor) factor();  // a final answer needs a fresh inverse
   }
   return false;
 }

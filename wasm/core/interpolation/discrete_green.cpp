@@ -30,7 +30,7 @@ Matrix differences(const Matrix& rows, bool outer, bool cyclic, bool backward) {
   return out;
 }
 
-/** D: each difference of the ones before. Dirichlet's and Neumann's alternate between D₁ and −D₁ᵀ, samples and gaps. */
+/** D: differences of differences. For Dirichlet and Neumann, D₁ and −D₁ᵀ alternate, from samples to gaps and back. */
 Matrix difference_matrix(Index size, int order, GridBoundary boundary) {
   Matrix d = Matrix::Identity(size, size);
   for (int step = 0; step < order; ++step) {
@@ -54,7 +54,7 @@ Matrix null_space(Index size, Index columns) {
   return basis;
 }
 
-/** Free ends: the kernel of m = |i − j| less what of it lies in the null space, (I − N Nᵀ) K (I − N Nᵀ). */
+/** Free ends: the kernel of m = |i − j| without its part in the null space, (I − N Nᵀ) K (I − N Nᵀ). */
 MatrixXd free_green(int order, const MatrixXd& n) {
   const MatrixXd k = MatrixXd::NullaryExpr(n.rows(), n.rows(), [order](Index i, Index j) {
     const auto m = static_cast<double>(std::abs(i - j));
@@ -70,7 +70,7 @@ void remove_mean(Eigen::Ref<Vector> x) {
   x.array() -= x.mean();
 }
 
-/** x ← (D₁ᵀD₁)⁻¹ x, or the generalized inverse: the slope falls by x from gap to gap, and the boundary says where it begins. */
+/** x ← (D₁ᵀD₁)⁻¹ x, or the generalized inverse: the slope falls by x from gap to gap; its first value follows from the boundary. */
 void integrate_twice(Eigen::Ref<Vector> x, GridBoundary boundary) {
   const Index size = x.size();
   const bool dirichlet = boundary == GridBoundary::dirichlet;
@@ -78,8 +78,8 @@ void integrate_twice(Eigen::Ref<Vector> x, GridBoundary boundary) {
   double fallen = 0, sum = 0;
   for (Index i = 0; i < size; ++i) sum += fallen += x[i];
   double slope = 0;
-  if (dirichlet) slope = sum / static_cast<double>(size + 1);                       // back to 0 one beyond the end
-  if (boundary == GridBoundary::periodic) slope = sum / static_cast<double>(size);  // or to where it began
+  if (dirichlet) slope = sum / static_cast<double>(size + 1);                       // so that f is 0 one step beyond the end
+  if (boundary == GridBoundary::periodic) slope = sum / static_cast<double>(size);  // or back at its first value
   double f = dirichlet ? slope : 0;
   for (Index i = 0; i < size; ++i) {
     slope -= x[i];
@@ -160,8 +160,8 @@ void DiscreteGreen::solve_grid(double* f) const {
   }
   const auto unknowns = std::ssize(place);
 
-  // R and its right-hand side, in the last column, row by row of D, which begin in the last row: each is rotated into the rows
-  // before it, or becomes one. So a band stays one; Eigen's factorizations, which know no bands, would take O(N³).
+  // R, its right-hand side in the last column, from the rows of D one by one: a row starts in the last row of r, and rotations with
+  // rows of R reduce it, or it becomes one. So a band stays a band; Eigen's dense factorizations would take O(N³).
   Matrix r = Matrix::Zero(unknowns + 1, unknowns + 1);
   std::vector<Index> end(place.size(), 0);  // of each row of R: 0 where there is none yet
   auto row = r.row(unknowns);
@@ -204,7 +204,7 @@ void DiscreteGreen::solve_grid(double* f) const {
 
 void DiscreteGreen::solve_radial(double* f, double* weights) const {
   const Index count = values_.size(), columns = null_space_.cols();
-  // λ in units of 1/G and N of order 1, so that pivots compare.
+  // λ in units of 1/G and N of order 1, so that pivots are comparable.
   const double largest = std::max(green_.diagonal().maxCoeff(), 0.0), scale = std::sqrt(static_cast<double>(size()));
   MatrixXd green(size(), count), system = MatrixXd::Zero(count + columns, count + columns);
   for (Index k = 0; k < count; ++k) {

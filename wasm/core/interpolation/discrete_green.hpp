@@ -1,5 +1,5 @@
 // Where radial kernels come from (2014 course, §5.4–5.6), on a line of N samples at unit spacing. A curve f through given samples,
-// S f = d, that is as smooth as can be by a difference operator D,
+// S f = d, that is as smooth as possible in terms of a difference operator D,
 //
 //   min ‖D f‖²  with  S f = d,    so that    DᵀD f + Sᵀλ = 0                             (eq. (4) and its derivative)
 //
@@ -27,7 +27,7 @@
 //
 // Accuracy. G is integrated or in closed form, to about 1e-13 of its largest element. The grid is solved by elimination: the
 // samples are known, and the rest minimizes ‖D f‖ by Givens rotations, whose errors grow with the longest gap as gapᵏ and not
-// gap²ᵏ. Radial functions lose what cancels in G Sᵀλ: 1e-16 of the largest of G times that of λ.
+// gap²ᵏ. Radial functions lose digits to cancellation in G Sᵀλ: 1e-16 of the largest of G times that of λ.
 #pragma once
 
 #include <cstdint>

@@ -18,9 +18,8 @@ constexpr Index steps_per_point = 20;
 LeastNormWeights::LeastNormWeights(Index most, Index dimension)
     : points_(most, dimension), basis_(most, dimension + 1), values_(most), slopes_(most), pivot_(dimension + 1), kept_(most) {}
 
-/** Gram and Schmidt over the points that are kept: first 1, then the coordinates, the largest remainder first; what depends on
- * those before is left out. Then v = Σ βⱼ basisⱼ, and Σ v = 1 and Σ v q = 0 over the points that are kept say what its parts β are.
- */
+/** Gram–Schmidt over the points that are kept: first 1, then the coordinates, the largest remainder first; those that depend on the
+ * ones before are left out. Then v = Σ βⱼ basisⱼ, with β determined by Σ v = 1 and Σ v q = 0 over the points that are kept. */
 void LeastNormWeights::orthonormalize() {
   const Index columns = basis_.cols();
   const auto product = [&](Index a, Index b) {
@@ -132,7 +131,7 @@ bool LeastNormWeights::solve(Index count) {
       exact = false;
       continue;
     }
-    // Rid the values of what the updates have piled up. A place beyond a face, if only by rounding, is moved onto it.
+    // Recompute the values without the errors of the updates. A place beyond a face, if only by rounding, is moved onto it.
     if (lowest >= 0) kept_[lowest] = 0;
     orthonormalize();
     exact = true;

@@ -1,12 +1,12 @@
-// The most even way to write a place as a mean of given ones: among all weights that do it, those of least norm.
+// The most even weights by which a place is the weighted mean of given ones: of all such weights, those of least norm.
 //
 //   minimize ½ Σ wᵢ²   where   Σ wᵢ qᵢ = 0,   Σ wᵢ = 1,   w ≥ 0,
 //
 // with the qᵢ relative to the place. By its Lagrangian wᵢ = max(0, v(qᵢ)) for one affine function v, so points that are mirror
 // images of each other as seen from the place have equal weights, and their order does not matter. The dual method of Goldfarb and
-// Idnani (Mathematical Programming 27, 1983) starts without w ≥ 0 and lets go, one at a time, of the points that would be negative,
-// taking back those that have become welcome again. The points kept always span the space. Every round raises the optimum, so none
-// comes twice, and there is an end.
+// Idnani (Mathematical Programming 27, 1983) starts without w ≥ 0 and drops, one at a time, the points that would be negative;
+// points whose multiplier vanishes meanwhile are taken back. The points kept always span the space. Every round raises the optimum,
+// so no set of points comes twice, and the method ends.
 //
 // The affine functions are kept orthonormal over the points kept while these come and go, by an update of rank one each, which
 // Eigen's factorizations do not have for rows.
@@ -28,8 +28,8 @@ class LeastNormWeights {
   double* point(Index i) { return points_.data() + i * points_.cols(); }
 
   /** The weights of points 0 … `count` − 1, which span the space unless there is just one. False, and no weights, where the place
-   * is outside their hull by more than 1e-9 as weights go. Steps O(count · d) each, as many as points are let go of, and in all no
-   * more than a bound after which the answer is false. Allocates nothing. */
+   * is outside their hull by more than 1e-9 in terms of weights. A step takes O(count · d); there is one for each point that is
+   * dropped, up to a bound beyond which the answer is false. Allocates nothing. */
   bool solve(Index count);
 
   double weight(Index i) const { return values_[i]; }

@@ -28,7 +28,7 @@ MatrixXd tail_at(const RadialBasis& basis, const Matrix& inner, Index columns) {
   return p;
 }
 
-/** The lower triangle, in the upper one too. */
+/** Copies the lower triangle to the upper one. */
 void mirror(Eigen::Ref<MatrixXd> square) {
   square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
 }
@@ -60,7 +60,7 @@ class SaddleFit final : public LinearFit {
   std::optional<Lu> lu_;
 };
 
-/** Half of LU's work where the kernel, times its sign, is positive definite on what the side conditions leave. With P = Q [T; 0],
+/** For a kernel that, times its sign, is positive definite on what the side conditions leave: half of LU's work. With P = Q [T; 0],
  * c = Q [y; z] and B = Qᵀ(R + λI)Q, the equations become
  *
  *   [ B₁₁  B₂₁ᵀ  T ] [y]
@@ -86,7 +86,7 @@ class DefiniteFit final : public LinearFit, private Inverse {
     b.diagonal().array() += basis.amplitude_of_scale() * smoothing;
     set_norm(b);
     side_.conjugate(b);
-    // The first columns are kept apart. Those of the identity in their place save copying the rest.
+    // The first columns are kept apart; with those of the identity in their place the rest need not be copied.
     strip_ = b.leftCols(tail_);
     mirror(strip_.topRows(tail_));
     b.leftCols(tail_).triangularView<Eigen::Lower>().setZero();
@@ -95,7 +95,7 @@ class DefiniteFit final : public LinearFit, private Inverse {
     if (definite()) condition_ = or_infinite(norm_ * inverse_norm_estimate(*this));
   }
 
-  /** Nothing else may be asked of it where it is not. */
+  /** Where it is not, nothing else may be called. */
   bool definite() const { return cholesky_->succeeded(); }
 
   MatrixXd coefficients(const Matrix& values) const override {
@@ -132,7 +132,7 @@ class DefiniteFit final : public LinearFit, private Inverse {
   Index rows() const override { return cholesky_->rows() + tail_; }
   void apply(Vector& x) const override { solve(x); }
 
-  /** [f; h] becomes [c; d], of a vector or of columns. */
+  /** [f; h] becomes [c; d], for a vector or for columns. */
   template <typename Columns>
   void solve(Columns& x) const {
     const Index n = cholesky_->rows();
@@ -151,7 +151,7 @@ class DefiniteFit final : public LinearFit, private Inverse {
     x.topRows(n) = c;
   }
 
-  /** Of the whole block matrix. */
+  /** The 1-norm of the whole block matrix. */
   void set_norm(const MatrixXd& lower) {
     const Index n = lower.rows();
     Vector sums = polynomials_.cwiseAbs().rowwise().sum();

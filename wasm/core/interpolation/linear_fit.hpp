@@ -12,7 +12,7 @@ class LinearFit {
  public:
   virtual ~LinearFit() = default;
 
-  /** Coefficients (m×size(), one row an output) for `values` (n×m). O(n² m). */
+  /** Coefficients (m×size(), one row per output) for `values` (n×m). O(n² m). */
   virtual MatrixXd coefficients(const Matrix& values) const = 0;
 
   /** Values at the points (n×m) of the function with these coefficients (m×size()), from a fit that still holds its kernels:
@@ -42,8 +42,8 @@ class LinearFit {
  * precision, the whole matrix is factored by LU. */
 std::unique_ptr<LinearFit> fit_interpolant(RadialBasis& basis, const Matrix& points, double smoothing);
 
-/** Least squares with as many centers as there are, or fewer, each point's misfit counting `row_weights` (n, or empty for 1), and
- * with weight decay λ (2014 course, eq. (3), (RᵀR + λI)⁻¹Rᵀd where there is no tail):
+/** Least squares with as many centers as points, or fewer. Each point's misfit is weighted by `row_weights` (n, or empty for 1),
+ * and there is weight decay λ (2014 course, eq. (3), (RᵀR + λI)⁻¹Rᵀd where there is no tail):
  *
  *     min ‖R c + P d − f‖² + λ‖c‖²,   P(centers)ᵀ c = 0
  *

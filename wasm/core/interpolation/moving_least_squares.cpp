@@ -16,7 +16,7 @@ namespace {
 constexpr double huge = 1e150;            // stands for infinity: quotients and products with weights stay numbers
 constexpr double least_root = 1e-200;     // √w below this part of the largest counts as none
 constexpr double largest_exponent = 250;  // of a singular √w over the second nearest point's: e²⁵⁰ is as good as infinite
-constexpr double margin = 0.8;            // where the farthest point that widening reaches for lies, in h
+constexpr double margin = 0.8;            // distance of the farthest point that widening includes, in h
 
 double in_range(double length) {
   return std::min(std::max(length, 1 / huge), huge);
@@ -110,7 +110,7 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
   if (singular) w[own_] = 1;
   if (singular && !slopes) return;
 
-  // √W P with the origin at the nearest point, whose row is then (√w, 0, 0 …) and cannot drown the others however large it is.
+  // √W P with the origin at the nearest point, whose row is then (√w, 0, 0 …) and cannot swamp the others however large it is.
   reach_ = in_range(width_ / unit_);
   farthest_ = -1;
   if (options_.weight == MovingWeight::wendland) widen();
@@ -146,7 +146,7 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
  *
  *   ∇ψₖ = gₖ + Ψₖᵀ (∇p(x) − Σᵢ gᵢ p(xᵢ)).
  *
- * Near a point its own g is as steep as p/r and all but cancels, so its slope is taken from Σₖ∇ψₖ = 0. */
+ * Near a point its own g is as steep as p/r but almost cancels, so its slope is taken from Σₖ∇ψₖ = 0. */
 void MovingLeastSquares::set_slopes(const double* query, int degree, const double* w, double* slopes) {
   const Index d = dimension(), count = qr_.rank(), rows = qr_.rows();
   const std::uint32_t* const point_of = rows_.data();

@@ -13,14 +13,14 @@
 //
 //   ∇f = ∇p(x)ᵀa + Σᵢ ψᵢ ∇ln wᵢ (fᵢ − p(xᵢ)ᵀa),
 //
-// and at a point itself, where w is singular, its limit: that of the fit of all others through the point, for p > 1. There is none
-// (NaN) at the points for p ≤ 1 or ε > 0, which make cusps; and `wendland` has kinks where it widens.
+// and at a point itself, where w is singular, its limit for p > 1: the gradient of the fit of all others through the point. There
+// is no gradient (NaN) at the points for p ≤ 1 or ε > 0, which make cusps; and `wendland` has kinks where it widens.
 //
-// Too little to go by. The points as a whole must determine the polynomials: create() checks it. Locally,
+// Where points are too few. The points as a whole must determine the polynomials: create() checks it. Locally,
 //   - `wendland` widens where fewer than 2q points (q polynomials) are within 0.8 h: h becomes 1.25 times the distance of the
 //   2q-th;
 //   - where the points of any weight still do not determine the polynomial (to 1e-10 of their extent: on one line, say), the degree
-//     falls to one that they do. Weights below 1e-400 of the largest, as of Gaussians beyond 30 widths, are none.
+//     falls to one that they do. Weights below 1e-400 of the largest, as of Gaussians beyond 30 widths, count as 0.
 // So there is a value everywhere, continuous but where the degree changes. Of degree 1 and 2 values grow far away like the
 // polynomials, and are finite within 1e100 diagonals of the data.
 #pragma once
@@ -45,8 +45,8 @@ struct MovingLeastSquaresOptions {
 class MovingLeastSquares final : public Interpolant {
  public:
   /** Fails with the codes of check_data(), POINTS_TOO_FEW or POINTS_DEGENERATE of check_unisolvent(), INVALID_OPTION, or
-   * OUT_OF_MEMORY. Points may coincide unless the weight is singular. A query costs O(nq²), q polynomials, or that of the points
-   * within h. */
+   * OUT_OF_MEMORY. Points may coincide unless the weight is singular. A query costs O(nq²) for q polynomials, with n the points
+   * within h for `wendland`. */
   static Result<MovingLeastSquares> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                                            const MovingLeastSquaresOptions& options = {});
 
@@ -67,9 +67,9 @@ class MovingLeastSquares final : public Interpolant {
   void set_slopes(const double* query, int degree, const double* w, double* slopes);
 
   MovingLeastSquaresOptions options_;
-  double unit_;  // the data's diagonal: of all lengths below
+  double unit_;  // the data's diagonal: the unit of all lengths below
   double width_, epsilon_;
-  GradedQr qr_;  // of √W P, a row each point of any weight
+  GradedQr qr_;  // of √W P, one row for each point of any weight
 
   // Of the current query:
   Vector distances_;                  // n

@@ -8,8 +8,8 @@
 namespace handlebody {
 namespace {
 
-constexpr double at_point = 1e-300;  // squares of distances: that of none, above where they lose digits,
-constexpr double no_slope = 1e-24;   // and that up to which a point leaves no gradient
+constexpr double at_point = 1e-300;  // squared distance of x at a point, above where squares lose digits
+constexpr double no_slope = 1e-24;   // squared distance up to which a point leaves no gradient
 
 }  // namespace
 
@@ -44,7 +44,7 @@ NaturalNeighbor::NaturalNeighbor(ScatteredData data, OutsideHull outside)
     const double largest = std::max(std::abs(low_[axis]), std::abs(high_[axis]));
     rounding = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() * (largest * per_diagonal_));
   }
-  // Points on a straight boundary are off it by their rounding ρ. Where they are s apart, cells wider than s²/ρ would notice.
+  // Points on a straight boundary are off it by their rounding ρ. Where they are s apart, this affects cells wider than s²/ρ.
   blur_ = 2 * NearestInHull::tolerance + rounding;
   far_ = std::clamp(1e-3 / rounding, 1e3, 1e10);
 }
@@ -65,7 +65,7 @@ void NaturalNeighbor::weigh(const double* query, double* w, double* slopes) {
       if (slopes) std::fill(slopes, slopes + 2 * n, none);
       return;
     }
-    // A corner of the hull or the two ends of an edge carry the foot. If x is a little inside, a third has no weight to speak of.
+    // The foot is a corner of the hull or between the ends of an edge. If x is a little inside, a third weight is negligible.
     own_ = i = std::max_element(w, w + n) - w;
     corner = w[i] == 1;
     w[i] = 0;
@@ -130,14 +130,14 @@ void NaturalNeighbor::take_areas(double* w, double* slopes) {
     const auto& side = cell_.side(k);
     const Index i = side.owner;
     part_.copy(cell_);
-    for (Index step = 1; step < m; ++step) {  // adjacent neighbors first: they leave little for the others to look at
+    for (Index step = 1; step < m; ++step) {  // adjacent neighbors first: they leave little for the others to cut
       const Index j = cell_.side((k + (step % 2 ? (step + 1) / 2 : m - step / 2)) % m).owner;
       // |y − pᵢ| ≤ |y − pⱼ|, or e·y ≤ e·(pᵢ + pⱼ)/2 with e = pⱼ − pᵢ.
       const double ex = (point(j)[0] - point(i)[0]) * per_diagonal_, ey = (point(j)[1] - point(i)[1]) * per_diagonal_;
       const double twice = ex * (offsets_(i, 0) + offsets_(j, 0)) + ey * (offsets_(i, 1) + offsets_(j, 1));
       const double length = std::sqrt(ex * ex + ey * ey);
-      // Adjacent neighbors share a vertex of the cell, equally far from both. Near the hull's boundary it is so far away that the
-      // angle between its line and theirs is nothing but rounding, and they would share the cell's area as that has it.
+      // Adjacent neighbors share a vertex of the cell, equally far from both, which is on this line. Near the hull's boundary it is
+      // so far away that this line is parallel to their sides but for rounding, which would decide how they share the cell's area.
       part_.cut(ex / length, ey / length, twice / 2 / length, j, i);
     }
     area += w[i] = part_.area();
@@ -155,7 +155,7 @@ void NaturalNeighbor::take_areas(double* w, double* slopes) {
   }
 }
 
-/** Linear weights of the two points around x on the boundary between i and j. They may have others between them, and do where
+/** Linear weights of the two points around x on the boundary between i and j. There may be other points between these, where
  *  boundaries have more points than corners. */
 void NaturalNeighbor::share_edge(Index i, Index j, double* w, double* slopes) {
   const double *from = &offsets_(i, 0), *to = &offsets_(j, 0);

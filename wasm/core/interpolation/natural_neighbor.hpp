@@ -1,11 +1,11 @@
 // Natural neighbor interpolation in the plane (R. Sibson, A brief description of natural neighbour interpolation, in: Interpreting
-// Multivariate Data, 1981). A query x that joined the points would take a Voronoi cell of its own, and take it from its neighbors:
+// Multivariate Data, 1981). A query x added to the points would get a Voronoi cell, taken from the cells of its neighbors:
 //
 //   f(x) = Σ wᵢ fᵢ,   wᵢ = Aᵢ / Σ Aⱼ,   Aᵢ = area of what x's cell takes from the cell of pᵢ.
 //
 // Inside the convex hull w ≥ 0, Σ wᵢ = 1 and Σ wᵢ pᵢ = x (Sibson, A vector identity for the Dirichlet tessellation, 1980): so it
 // interpolates, reproduces linear functions and never leaves the range of the values. It has one value and one gradient everywhere
-// but at the points, where the surface has cusps, and neither depends on how a grid is triangulated: nothing is. For
+// but at the points, where the surface has cusps. Nothing is triangulated, so neither depends on a triangulation. The sets in
 //
 //   cell = {y : |y − x| ≤ |y − pᵢ| for all i},   Aᵢ = area of {y in cell : |y − pᵢ| ≤ |y − pⱼ| for all neighbors j},
 //
@@ -18,10 +18,10 @@
 //
 // **At the hull's boundary** the cell grows without bound and the weights become linear between the two points on both sides of x.
 // **Outside** there are no cells: either the value at the nearest point of the hull, which is the continuous extension (constant
-// along the hull's normals; the gradient is the part along the boundary), or NaN. Inside means up to 1e-12 of the diagonal, as
-// NearestInHull has it. What is inside by less than 1e-11 diagonals, or 2e-13 of the largest coordinate, counts as on the boundary.
-// **Points on a line**, up to as much, are all boundary: linear between neighbors, constant across and beyond. One point is
-// constant.
+// along the hull's normals; the gradient is the part along the boundary), or NaN. Inside means up to 1e-12 of the diagonal, as in
+// NearestInHull. What is inside by less than 1e-11 diagonals, or 2e-13 of the largest coordinate, counts as on the boundary.
+// **Points on a line**, to the same accuracy, are all boundary: linear between neighbors, constant across and beyond. One point
+// makes a constant.
 //
 // **Accuracy.** Weights are those of points moved by 1e-15 diagonals: right to 1e-14, close to points and to the boundary too, but
 // to 1e-15/t only where points crowd within t diagonals or form a needle t thick. Gradients are right to 1e-15 over the distance to
@@ -60,15 +60,15 @@ class NaturalNeighbor final : public Interpolant {
   double low_[2], high_[2];  // the points' bounding box
   double per_diagonal_;      // 1 / its diagonal; 1 where that is 0
   NearestInHull hull_;
-  double blur_;  // how far from the hull's boundary a point may seem that is on it, diagonals
-  double far_;   // half the box that cells begin as, diagonals: what is farther counts as at infinity
+  double blur_;  // how far off the hull's boundary a point on it may seem, diagonals
+  double far_;   // half the box that cells start from, diagonals: anything farther counts as at infinity
 
   // Scratch, around x and in diagonals.
   Matrix offsets_;          // n×2: pᵢ − x
   Vector squares_;          // n: |pᵢ − x|²
   Indices heap_;            // points, the nearest first
   Index own_ = 0;           // the point that x is at
-  ConvexCell cell_, part_;  // of x; of that, what is nearest to one neighbor
+  ConvexCell cell_, part_;  // of x; its part that is nearest to one neighbor
 };
 
 }  // namespace handlebody

@@ -9,7 +9,7 @@
 namespace handlebody {
 namespace {
 
-constexpr double farthest = 1e150;    // diagonals: its square is a number still
+constexpr double farthest = 1e150;    // diagonals: its square is still finite
 constexpr double rounding = 1e-15;    // of a length in diagonals, or of a height over the plane as a part of the distance
 constexpr Index steps_per_axis = 50;  // a few are needed
 
@@ -45,7 +45,7 @@ NearestInHull::NearestInHull(const Matrix& points) : points_(points) {
   factor_.setZero(d + 1, d + 1);
 }
 
-/** z = Σ weights · corners, the weights made to have sum 1 to the last digit. */
+/** z = Σ weights · corners, after normalizing the weights to a sum of 1. */
 void NearestInHull::combine() {
   const double sum = weights_.head(count_).sum();
   point_.setZero();
@@ -55,7 +55,7 @@ void NearestInHull::combine() {
   }
 }
 
-/** Edges from number `from` on, by Gram and Schmidt, twice for the sake of orthogonality. False where the last adds nothing. */
+/** Edges from number `from` on, by Gram–Schmidt, twice for the sake of orthogonality. False where the last adds nothing. */
 bool NearestInHull::orthonormalize(Index from) {
   const Index d = point_.size();
   bool independent = true;
@@ -78,8 +78,8 @@ bool NearestInHull::orthonormalize(Index from) {
   return independent;
 }
 
-/** The weights, of any sign, of the point of the corral's span that is nearest to x, and the way from it to x. Projecting twice
- * keeps that orthogonal to the span to its own last digit, however short it is: so heights over the plane through z mean something.
+/** The weights, of any sign, of the point of the corral's span that is nearest to x, and the vector from it to x. Projecting twice
+ * keeps that vector orthogonal to the span to its own last digit, however short it is, so that heights over the plane are accurate.
  */
 void NearestInHull::minimize_in_span() {
   const Index d = query_.size();
@@ -127,7 +127,7 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
 
   const Index most = steps_per_axis * (d + 1);
   for (Index step = 0, idle = 0;; ++step) {
-    // Toward the point wanted in the span, and no farther than to where the first weight vanishes: its corner leaves.
+    // Move toward the wanted point of the span, at most to where the first weight vanishes: its corner leaves.
     for (;;) {
       minimize_in_span();
       double way = 1;
@@ -151,7 +151,7 @@ double NearestInHull::operator()(const double* query, double* nearest, double* w
     least = std::min(least, distance);
     if (idle > d + 1) break;
 
-    // Who lies farthest in front of the plane?
+    // The point farthest in front of the plane enters.
     double highest = dot(across_.data(), corner(0), d) + rounding * distance;
     std::uint32_t entering = 0;
     bool found = false;

@@ -2,12 +2,12 @@
 // (P. Wolfe, Finding the nearest point in a polytope, Mathematical Programming 11, 1976).
 //
 // It keeps a *corral*: a few affinely independent points pₛ, with positive weights, whose affine span is nearest to the query x at
-// their own convex combination z. While some point lies in front of the plane through z across x − z, that is
-// (x − z)·(pᵢ − z) > 0, it joins; points whose weights would turn negative leave. Every corral is nearer than the one before, so
-// none comes twice and there is an end, after a few times d steps as a rule. A step takes O(nd + d³).
+// their own convex combination z. While some point lies in front of the plane through z across x − z, that is (x − z)·(pᵢ − z) > 0,
+// it joins; points whose weights would turn negative leave. Every corral is nearer than the one before, so none comes twice and the
+// search ends, usually after a few times d steps. A step takes O(nd + d³).
 //
-// The corral's edges are factored by Gram and Schmidt, an edge at a time as it joins, in scratch space of the object's own: Eigen's
-// factorizations begin anew with every change.
+// The corral's edges are factored by Gram–Schmidt, an edge at a time as it joins, in the object's own scratch space: Eigen's
+// factorizations would start anew with every change.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace handlebody {
 
-/** What an interpolant that lives in the hull answers outside of it. */
+/** What an interpolant that is defined in the hull returns outside of it. */
 enum class OutsideHull {
   nearest,  // the value at the nearest point of the hull
   nan,
@@ -35,8 +35,8 @@ class NearestInHull {
   /** Writes the hull's `nearest` point to `query` (d each; the query itself where that is inside) and, unless it is null, `weights`
    *  (n): at most d + 1 of them positive, the others 0, of sum 1 and mean `nearest`. Returns the distance. Allocates nothing.
    *  Finite for every finite query; one that is t > 1 diagonals away is answered to about 1e-15 t diagonals, which is its own
-   *  rounding, and coordinates beyond 1e150 diagonals are clamped. Should rounding keep the search from its end, a bound on the
-   *  number of steps stops it, and the nearest point so far is the answer. */
+   *  rounding, and coordinates beyond 1e150 diagonals are clamped. If rounding keeps the search from ending, a bound on the number
+   *  of steps stops it, and the nearest point so far is the answer. */
   double operator()(const double* query, double* nearest, double* weights);
 
  private:
@@ -49,13 +49,13 @@ class NearestInHull {
   Matrix points_;  // n×d: centered, diagonal 1
   Vector center_;
   double diagonal_;
-  double spread_;  // what rounding does to the points, diagonals
+  double spread_;  // rounding errors of the points, diagonals
 
   // The corral and what it knows, all scratch: only the first `count_` entries mean anything.
   Index count_ = 0;
   std::vector<std::uint32_t> corral_;  // d+1
   Vector weights_, wanted_;            // d+1; of the convex combination, of the point of the span nearest to the query
-  Matrix edges_;                       // (d+1)×d: row k spans, with those before it, what corner k − corner 0 adds
+  Matrix edges_;                       // (d+1)×d: row k is what corner k − corner 0 adds to the span, orthonormal
   Matrix factor_;                      // corner k − corner 0 = Σⱼ factor_(j, k) edges_(j), j ≤ k
   Vector query_, point_, across_;      // d: x, z, x − z
 };

@@ -34,7 +34,7 @@ Vector score(Rbf& rbf, OutlierMethod method) {
       squares[i] = (data.values.row(i).transpose() - fitted).squaredNorm();
     }
   }
-  for (double& number : squares) number = number > 0 ? std::sqrt(number) : -std::sqrt(-number);  // a row may take from the norm
+  for (double& number : squares) number = number > 0 ? std::sqrt(number) : -std::sqrt(-number);  // a row's part can be negative
   return squares;
 }
 
@@ -54,7 +54,7 @@ Result<Rbf> fit(const ScatteredData& data, const std::vector<std::uint32_t>& in,
   return Rbf::create(points, values, options);
 }
 
-/** What makes a fit between neighbors a compromise. */
+/** λ that makes the fit a compromise between neighbors. */
 double automatic_smoothing(const Matrix& points, const Kernel& kernel) {
   if (kernel.has_width()) return 0.5;  // of φ(0) = 1
   const double spacing = points.rows() > 1 ? nearest_distances(points).mean() : 1;

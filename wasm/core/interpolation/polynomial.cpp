@@ -12,8 +12,8 @@ namespace {
 // Columns count as dependent when what is left of them falls below this part of the longest.
 constexpr double rank_tolerance = 1e-10;
 
-/** Takes the span of the first `count` columns, which are orthonormal, out of the others, and puts as many orthonormal columns as
- * span what is left in the place of these. Returns how many. */
+/** Removes the span of the first `count` columns, which are orthonormal, from the others, and replaces these by orthonormal columns
+ * that span what is left. Returns how many there are. */
 Index orthonormalize(MatrixXd& columns, Index count) {
   const auto front = columns.leftCols(count);
   auto rest = columns.rightCols(columns.cols() - count);
@@ -63,7 +63,7 @@ Result<Done> check_unisolvent(const Matrix& points, int degree) {
                  {"Add points until there are ", needed, degree > 0 ? ", or lower the degree." : "."});
   if (degree < 1) return Done{};
 
-  // In orthonormal coordinates, which decide the same question for a set of any proportions.
+  // In orthonormal coordinates the question is the same, and the set's proportions do not matter.
   MatrixXd columns(count, 1 + d);
   columns.col(0).setConstant(1 / std::sqrt(static_cast<double>(count)));
   columns.rightCols(d) = points;

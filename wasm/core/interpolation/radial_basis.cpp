@@ -132,7 +132,7 @@ Result<Done> RadialBasis::set_widths(const RadialBasisOptions& options) {
   return Done{};
 }
 
-/** The ball of the clamped plate has the points' box in its middle and the width for its radius. */
+/** The ball of the clamped plate is centered on the points' box, and its radius is the width. */
 Result<Done> RadialBasis::set_ball(const Matrix& points) {
   plate_margins_.resize(centers());
   for (Index i = 0; i < centers(); ++i) {
@@ -190,7 +190,7 @@ void RadialBasis::squared_distances(Index first) {
   for (Index i = 0; i < count; ++i) out[i] *= inverse[i];
 }
 
-/** The kernels from these, which are lost. */
+/** The kernels from the squared distances, which are overwritten. */
 void RadialBasis::kernels_of_distances(Index first, double* out) {
   const Index count = centers() - first;
   if (kernel_.kind == KernelKind::clamped_plate) {
@@ -220,7 +220,7 @@ void RadialBasis::values(const double* query, double* out) {
   if (normalized_) {
     double sum = 0;
     for (Index i = 0; i < k; ++i) sum += out[i];
-    for (Index i = 0; i < k; ++i) out[i] = sum != 0 ? out[i] / sum : 0;  // beyond the reach of compact kernels there is nothing
+    for (Index i = 0; i < k; ++i) out[i] = sum != 0 ? out[i] / sum : 0;  // 0 beyond the support of compact kernels
   }
   polynomial_values(inner_.data(), dimension(), degree_, out + k);
 }
@@ -251,7 +251,7 @@ void RadialBasis::gradients(const double* query, double* out) {
     for (Index axis = 0; axis < d; ++axis)
       for (Index i = 0; i < k; ++i) out[axis * n + i] = slopes_[i] * (inner_[axis] - centers_(i, axis));
   }
-  if (normalized_) {  // ∇(φᵢ/Σ) = (∇φᵢ − φᵢ/Σ · Σ∇φ)/Σ; the sum is that of the kernels as they were before
+  if (normalized_) {  // ∇(φᵢ/Σ) = (∇φᵢ − φᵢ/Σ · Σ∇φ)/Σ; the sum is that of the kernels before the division
     Vector& raw = squared_;
     if (kernel_.kind == KernelKind::gaussian) raw.array() -= raw.minCoeff();
     kernel_.values(raw.data(), k);
@@ -285,39 +285,26 @@ void RadialBasis::combine(const MatrixXd& coefficients, const double* queries, I
     }
     return;
   }
-  double* inner = block_inner_.data();  // block × d
-  double* sums = block_sums_.data();    // block × m
   for (Index first = 0; first < count; first += block) {
     const Index width = std::min(block, count - first);
+    auto inner = block_inner_.topRows(width);
+    auto sums = block_sums_.topLeftCorner(width, m);
     for (Index q = 0; q < width; ++q) {
       to_inner(queries + (first + q) * d, inner_.data());
+      inner.row(q) = inner_.transpose();
       polynomial_values(inner_.data(), d, degree_, row_.data());
-      for (Index axis = 0; axis < d; ++axis) inner[axis * block + q] = inner_.data()[axis];
-      for (Index j = 0; j < m; ++j) {
-        double sum = 0;
-        for (Index t = 0; t < tail_; ++t) sum += coefficients.data()[(k + t) * m + j] * row_.data()[t];
-        sums[j * block + q] = sum;
-      }
+      Eigen::Map<Vector> sum(out + (first + q) * m, m);
+      multiply(coefficients.rightCols(tail_), row_.head(tail_), sum);
+      sums.row(q) = sum.transpose();
     }
-    double column[block];
     for (Index i = 0; i < k; ++i) {
-      std::fill(column, column + width, 0.0);
-      for (Index axis = 0; axis < d; ++axis) {
-        const double* __restrict x = inner + axis * block;
-        const double c = centers_.data()[axis * k + i];
-        for (Index q = 0; q < width; ++q) column[q] += (x[q] - c) * (x[q] - c);
-      }
-      const double inverse = inverse_squares_.data()[i];
-      for (Index q = 0; q < width; ++q) column[q] *= inverse;
-      kernel_.values(column, width);
-      for (Index j = 0; j < m; ++j) {
-        const double c = coefficients.data()[i * m + j] * amplitudes_.data()[i];
-        double* __restrict sum = sums + j * block;
-        for (Index q = 0; q < width; ++q) sum[q] += c * column[q];
-      }
+      Eigen::Array<double, Eigen::Dynamic, 1, 0, block, 1> column = (inner.col(0) - centers_(i, 0)).square();
+      for (Index axis = 1; axis < d; ++axis) column += (inner.col(axis) - centers_(i, axis)).square();
+      column *= inverse_squares_[i];
+      kernel_.values(column.data(), width);
+      for (Index j = 0; j < m; ++j) sums.col(j) += coefficients(j, i) * amplitudes_[i] * column;
     }
-    for (Index q = 0; q < width; ++q)
-      for (Index j = 0; j < m; ++j) out[(first + q) * m + j] = sums[j * block + q];
+    Eigen::Map<Matrix>(out + first * m, width, m) = sums.matrix();
   }
 }
 

@@ -1,13 +1,13 @@
-// The functions that a radial basis interpolant is a linear combination of (2014 course, eq. (1) of §4.4 and §5.2): a kernel at
-// each of k centers and the polynomials up to a degree,
+// The functions whose linear combination a radial basis interpolant is (2014 course, eq. (1) of §4.4 and §5.2): a kernel at each of
+// k centers and the polynomials up to a degree,
 //
 //   φᵢ(x) = aᵢ φ(‖x − cᵢ‖/hᵢ),  i < k,   then   p₁(x), p₂(x), …
 //
 // `normalized` divides the kernels by their sum (course §4.4.1): constants are then in the span without a tail, and the values stay
 // bounded far away. With a `metric` M distances are Mahalanobis's, ‖x‖² = xᵀMx (course §4.4).
 //
-// Inside, coordinates are moved and scaled to a bounding box with a unit diagonal, y = scale · Lᵀ(x − center) with M = LLᵀ. This
-// changes the conditioning and not the functions: widths are scaled along; homogeneous kernels change by the factor
+// Internally, coordinates are moved and scaled to a bounding box with a unit diagonal, y = scale · Lᵀ(x − center) with M = LLᵀ.
+// This changes the conditioning and not the functions: widths are scaled along; homogeneous kernels change by the factor
 // amplitude_of_scale(), and r² ln r also by a multiple of r², which the side conditions of its tail turn into a polynomial.
 #pragma once
 
@@ -23,7 +23,7 @@ struct RadialBasisOptions {
   int degree = -1;          // of the polynomials: −1 (none) to 2; at least kernel.minimum_degree() unless normalized
   bool normalized = false;  // needs a kernel without zeros
 
-  // One width a center instead of kernel.width (k, units of the points), or empty. Multiquadrics are then scaled by their widths,
+  // One width per center instead of kernel.width (k, units of the points), or empty. Multiquadrics are then scaled by their widths,
   // √(hᵢ² + r²), so that all grow alike and the side condition Σcᵢ = 0 still cancels the growth. No theorem guarantees that unequal
   // widths give a regular matrix.
   Vector widths = {};
@@ -53,7 +53,7 @@ class RadialBasis {
   double scale() const { return scale_; }
 
   /** A kernel in inner coordinates is this times the kernel in the caller's: s^e, s the scale and e the homogeneity, and for
-   * tension what makes values of about 1. */
+   * tension a factor that makes its values about 1. */
   double amplitude_of_scale() const { return amplitude_of_scale_; }
 
   /** Points (n×d) in inner coordinates, where the polynomials are monomials. */
@@ -65,7 +65,7 @@ class RadialBasis {
   /** The kernels alone from center `first` on (centers() − first), not normalized. */
   void kernels_from(Index first, const double* query, double* out);
 
-  /** Their gradients too: out size()×d, axis after axis, in the caller's coordinates. Allocates nothing. */
+  /** The gradients of all functions: out size()×d, axis after axis, in the caller's coordinates. Allocates nothing. */
   void gradients(const double* query, double* out);
 
   /** Σ coefficients · functions: `coefficients` m×size() column-major, out count×m. Allocates nothing for m ≤
@@ -100,7 +100,7 @@ class RadialBasis {
   // Scratch.
   Vector inner_, squared_, slopes_, row_;
   MatrixXd polynomials_;
-  Eigen::Matrix<double, block, Eigen::Dynamic> block_inner_, block_sums_;
+  Eigen::Array<double, block, Eigen::Dynamic> block_inner_, block_sums_;
 };
 
 }  // namespace handlebody

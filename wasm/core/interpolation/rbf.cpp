@@ -12,7 +12,7 @@
 namespace handlebody {
 namespace {
 
-/** From here on the report looks for a remedy. */
+/** From this condition number on the report looks for a remedy. */
 constexpr double ill_condition = 1e12;
 
 Error option_error(std::initializer_list<Word> message, std::initializer_list<Word> remedy) {
@@ -46,7 +46,7 @@ Result<Done> check_options(const RbfOptions& options, Index points, Index dimens
   return Done{};
 }
 
-/** A kernel of the caller's that gave no number: between which point and center. */
+/** Names the point and the center between which a caller's kernel gave no number. */
 Error kernel_error(RadialBasis& basis, const Matrix& points) {
   Vector row(basis.size());
   for (Index i = 0; i < points.rows(); ++i) {

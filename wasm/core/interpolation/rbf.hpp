@@ -35,7 +35,7 @@ struct RbfOptions {
   RobustMethod robust = RobustMethod::none;  // needs fewer centers than points
 };
 
-/** What a fit is worth. Lengths in units of the points. */
+/** How good a fit is. Lengths in units of the points. */
 struct RbfReport {
   double condition = 0;  // 1-norm condition number of the factored equations: an estimate, rarely more than three times too small
   double residual = 0;   // largest misfit at a point

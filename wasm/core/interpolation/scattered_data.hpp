@@ -1,4 +1,4 @@
-// The door that all scattered data comes through: checked for shape and finiteness, and for points that coincide.
+// The checks that all scattered data go through: shape, finiteness, and points that coincide.
 #pragma once
 
 #include <cstdint>

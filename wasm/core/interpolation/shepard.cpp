@@ -63,8 +63,8 @@ void Shepard::weigh(const double* query, double* w, double* slopes) {
   for (Index k = 0; k < n; ++k) w[k] /= 1 + others;
   others /= 1 + others;
   if (!slopes) return;
-  // With wₖ for wₖ/Σw from here on, ∇wₖ = wₖ (∇ ln wₖ − Σⱼ wⱼ ∇ ln wⱼ). Near a point its own logarithm is as steep as p/r and all
-  // but cancels: 1 − w there is the sum of the others.
+  // With wₖ for wₖ/Σw from here on, ∇wₖ = wₖ (∇ ln wₖ − Σⱼ wⱼ ∇ ln wⱼ). Near a point its own ∇ ln w is as steep as p/r but almost
+  // cancels: 1 − w there is computed as the sum of the others.
   for (Index axis = 0; axis < d; ++axis) {
     double mean = 0;
     for (Index k = 0; k < n; ++k)

@@ -20,7 +20,7 @@ void project(const Matrix& axes, Vector& offset, double* coordinates) {
   }
 }
 
-/** Orthonormal axes (rows) of what the rows of `offsets` span from the origin, but for what is shorter than `tolerance`. */
+/** Orthonormal axes (rows) of the span of the rows of `offsets`, but for directions in which they are shorter than `tolerance`. */
 Matrix span_axes(const Matrix& offsets, double tolerance) {
   const auto [basis, sizes] = column_span(offsets.transpose());
   return basis.leftCols((sizes.array() > tolerance).count()).transpose();
@@ -82,7 +82,7 @@ SimplexLinear::SimplexLinear(ScatteredData data, OutsideHull outside, Frame fram
       offset_(center_.size()),
       place_(points_.cols()) {}
 
-/** Fills w with the weights of the cell at place_. False, and w as it was, where none holds it. */
+/** Fills w with the weights of the cell at place_. False, and w as it was, where no cell contains it. */
 bool SimplexLinear::weigh_cell(double* w) {
   if (!cell_.find(place_.data())) return false;
   const Indices& members = cell_.members();
@@ -110,13 +110,13 @@ void SimplexLinear::weigh(const double* query, double* w, double* slopes) {
       return;
     }
   }
-  // Walks are for places among the points: from afar all of these look alike.
+  // Walks are for places among the points: from far away these cannot be told apart.
   if (place_.squaredNorm() <= radius_ * radius_ && weigh_cell(w)) return;
   if (hull_(place_.data(), place_.data(), w) > rounding_ && outside_ == OutsideHull::nan) {
     std::fill(w, w + n, nan);
     return;
   }
-  weigh_cell(w);  // chooses evenly among the corners of a face; if rounding fails it, the hull's own weights do
+  weigh_cell(w);  // shares evenly among the corners of a face; where rounding makes it fail, the hull's weights remain
 }
 
 }  // namespace handlebody

@@ -1,13 +1,13 @@
 // Linear interpolation on the Delaunay simplices of the points (2014 course, §4.1), in any dimension and without a triangulation:
-// for every query the one simplex that holds it is found, and its barycentric coordinates are the weights.
+// for every query the simplex that contains it is found, and its barycentric coordinates are the weights.
 //
 //   f(x) = Σ wᵢ fᵢ,   with w ≥ 0, Σ wᵢ = 1 and Σ wᵢ pᵢ = x inside the convex hull.
 //
 // So it interpolates, reproduces linear functions, never leaves the range of the values, is continuous, and has kinks.
 //
-// **Cospherical points** (grids, circles) leave the simplex open. The rule here: among all weights of points on the empty sphere,
-// those of least Σ wᵢ². They depend neither on the order of the points nor on rotation, translation or scale, and give the center
-// of a square ¼ of each corner. On a face that two cells share only the face's points can have weight, so that the function is
+// **Cospherical points** (grids, circles) leave open which simplex. The rule here: of all weights of points on the empty sphere,
+// those of least Σ wᵢ². They depend neither on the order of the points nor on rotation, translation or scale, and the center of a
+// square gets ¼ of each corner. On a face that two cells share only the face's points can have weight, so that the function is
 // continuous. Points are cospherical to 1e-9 (DelaunayCell::cospherical); nearly cospherical points beyond that have a Delaunay
 // simplex like all others.
 //
@@ -15,7 +15,7 @@
 // 1e-12 of the diagonal of the points' bounding box, plus the coordinates' own rounding (4 ε of the largest), as for NearestInHull.
 //
 // **Points that span less than the space** (to 1e-9 of the diagonal), such as points on a line, or one or two, are interpolated in
-// their span, onto which queries are projected; farther off it than 2e-9 diagonals is outside.
+// their span, onto which queries are projected; a query farther than 2e-9 diagonals from it is outside.
 #pragma once
 
 #include "core/interpolation/delaunay_cell.hpp"
@@ -27,7 +27,7 @@ namespace handlebody {
 
 class SimplexLinear final : public Interpolant {
  public:
-  /** Fails with the codes of check_data(). Linear in the number of points, but for the search of duplicates. */
+  /** Fails with the codes of check_data(). Linear in the number of points, but for the search for duplicates. */
   static Result<SimplexLinear> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                                       OutsideHull outside = OutsideHull::nearest);
 

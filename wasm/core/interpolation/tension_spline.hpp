@@ -2,10 +2,10 @@
 //
 //   Σ (f(xᵢ) − yᵢ)²/σ + α ∫(∇²f)² + β ∫|∇f|² + γ ∫f²,
 //
-// or, for σ = 0, α ∫(∇²f)² + β ∫|∇f|² + γ ∫f² among those through the points; σ = 1 is eq. (2). α makes it smooth, β takes the
-// overshoot out of it, γ makes it decay to 0 between and beyond the points, over lengths of (α/β)^½ and (α/γ)^¼. It is a radial
-// basis interpolant with the kernel of tension_kernel.hpp and, for γ = 0, a polynomial tail. On a line it is not the spline that
-// ends at the last point (tension_spline_1d.hpp) but goes on beyond it, and only for β = γ = 0 straight on: the natural cubic
+// or, for σ = 0, α ∫(∇²f)² + β ∫|∇f|² + γ ∫f² among those through the points; σ = 1 is eq. (2). α makes it smooth, β reduces
+// overshoot, γ makes it decay to 0 between and beyond the points, over lengths of (α/β)^½ and (α/γ)^¼. It is a radial basis
+// interpolant with the kernel of tension_kernel.hpp and, for γ = 0, a polynomial tail. On a line it differs from the spline of
+// tension_spline_1d.hpp, which ends at the last point: it goes on beyond, and only for β = γ = 0 straight, as the natural cubic
 // spline.
 #pragma once
 

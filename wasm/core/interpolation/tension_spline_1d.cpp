@@ -13,7 +13,7 @@ namespace {
 //
 //   σ(t) = (cosh x − cosh xy)/(ω sinh x),   a(t) = (sinh xy − y sinh x)/(2 (x cosh x − sinh x)),   y = 2t − 1.
 //
-// Short or slack intervals (x < 1) take series in x², long ones everything times e^{−x}: no overflow, and cubics as ω → 0.
+// Short or slack intervals (x < 1) use series in x²; long ones multiply everything by e^{−x}: no overflow, and cubics as ω → 0.
 constexpr double slack = 1e-8;  // of ω: below, σ is a parabola to rounding
 
 struct Curvature {
@@ -169,7 +169,7 @@ void TensionSpline1d::weigh(const double* query, double* w, double* slopes) {
     w[order[std::max<Index>(i, 0)]] = 1;
     return;
   }
-  // The value is linear in the slopes M⁻¹B y, and M symmetric: M z = (left, right) once instead of M⁻¹, then Bᵀz.
+  // The value is linear in the slopes M⁻¹B y, and M is symmetric: M z = (left, right) is solved once, then Bᵀz taken.
   for (const bool derivative : {false, true}) {
     double* to = derivative ? slopes : w;
     if (!to) return;

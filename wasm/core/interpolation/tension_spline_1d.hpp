@@ -53,7 +53,7 @@ class TensionSpline1d final : public Interpolant {
   double stiffness_;          // b
   Indices order_;             // the kept points from left to right
   std::vector<double> x_;     // n: their places
-  std::vector<double> pull_;  // n − 1: (p + q)/H², what a rise of the interval puts on the right-hand sides of both its ends
+  std::vector<double> pull_;  // n − 1: (p + q)/H², the factor of the interval's rise in the right-hand sides of both its ends
   std::vector<double> over_;  // n: the matrix as L D Lᵀ: 1/D, and 0 at both ends, whose slope is known
   std::vector<double> link_;  // n: L's entry below the diagonal
   Matrix slopes_;             // n×m: mᵢ, from left to right

@@ -18,7 +18,7 @@ double mean_spacing(const Matrix& points) {
   return nearest_distances(points).mean();
 }
 
-/** At most 256 of the points, evenly from their order by coordinates: the same ones in whatever order they are given. */
+/** At most 256 of the points, taken evenly from their order by coordinates: the same ones in whatever order they are given. */
 ScatteredData thinned(const ScatteredData& data) {
   const Index n = data.points.rows();
   if (n <= most_points) return data;

@@ -7,8 +7,8 @@ namespace handlebody {
 
 /** A multiple of the points' mean spacing: wide enough to be smooth between points, narrow enough to be well conditioned. 2 for the
  * Gaussian, the inverse multiquadric, the inverse quadratic and the compact inverse multiquadric, 1 for the multiquadric, 5 (the
- * radius of its support) for Wendland's and Buhmann's; of the clamped plate 1.5 times the radius of the points around their middle;
- * 1 for the caller's. */
+ * radius of its support) for Wendland's and Buhmann's; for the clamped plate 1.5 times the radius of the points around their
+ * middle; 1 for the caller's. */
 double spacing_width(const Matrix& points, const RadialBasisOptions& options);
 
 /** The width with the least sum of squared leave-one-out errors, among those with a condition number below 1e13: the best of a

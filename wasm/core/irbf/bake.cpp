@@ -85,7 +85,7 @@ Result<std::unique_ptr<Bake>> Bake::begin(const ConstPoints& positions, const Co
   for (Index v = 0; v < vertices; ++v)
     bake.solver_positions_.row(v) = normalization.to_solver(positions.row(bake.weld_.unique[v]).transpose());
   bake.triangles_ = weld_triangles(bake.weld_, triangles);
-  if (bake.options_.cloud) {  // a point is a triangle without extent, to be near to
+  if (bake.options_.cloud) {  // a point is a triangle without extent, to measure distances to
     bake.triangles_.resize(vertices, 3);
     for (Index v = 0; v < vertices; ++v) bake.triangles_.row(v).setConstant(static_cast<std::uint32_t>(v));
   }
@@ -156,7 +156,7 @@ void Bake::measure_depth() {
   const std::size_t count = voxels.size();
   const std::size_t end = sheet ? count : std::min(count, depth_.size() + voxels_per_step);
   for (std::size_t v = depth_.size(); v < end; ++v) {
-    // No more than a step farther than the voxel before it, where that is its neighbor.
+    // At most one spacing farther than the voxel before it, where that is its neighbor.
     const bool beside = v > 0 && !on_bridge[v - 1] && voxels[v] == voxels[v - 1] + 1;
     const double bound = beside ? 1.0001 * (depth_[v - 1] + body_.domain.grid().spacing) : std::numeric_limits<double>::infinity();
     const Vector3 center = body_.domain.center(static_cast<Index>(v));

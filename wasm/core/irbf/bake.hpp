@@ -24,7 +24,7 @@ struct BakeOptions {
   DistanceMethod method = DistanceMethod::fast_marching;
   int max_spheres = 120;
   SpherePacking packing = SpherePacking::skeleton;
-  std::vector<double> density;  // of centers, relative to 1, one a vertex; empty for 1 throughout
+  std::vector<double> density;  // of centers, relative to 1, one per vertex; empty for 1 throughout
   bool cloud = false;           // no triangles: the positions are a dense sample of a surface or solid
   std::optional<Grid> grid;     // with `voxels`: the domain, in model units, instead of one found from the surface
   Indices voxels;
@@ -71,7 +71,7 @@ class Bake {
   Triangles triangles_;      // welded, turned to agree
 
   Phase phase_ = Phase::interior;
-  double part_ = 0;  // of the phase that is done
+  double part_ = 0;  // the fraction of the phase that is done
   std::unique_ptr<InteriorVoxels> interior_;
   std::vector<double> depth_;  // distance of each voxel from the surface
   std::unique_ptr<InteriorDistance> distance_;

@@ -8,8 +8,8 @@
 
 namespace handlebody {
 
-/** What it means stands with the codes; `count` things (triangles, links, vertices), of which the worst is at `place` (model units)
- * and is vertex `vertex`, if it is one. */
+/** The codes' meaning is in status.h. A warning concerns `count` things (triangles, links, vertices); the worst is at `place`
+ * (model units), and is vertex `vertex` if it is one. */
 struct BakeWarning {
   hb_warning_code code;
   Index count = 0;

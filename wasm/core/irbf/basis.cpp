@@ -11,7 +11,7 @@ namespace handlebody {
 
 namespace {
 
-/** Centers that are evaluated side by side, and samples a chunk. */
+/** Centers that are evaluated side by side, and samples per chunk. */
 constexpr Index lanes = 8, chunk = 32;
 /** A sum of kernels is no divisor when it is smaller than this part of the sum of their magnitudes. */
 constexpr double cancellation = 1e-3;

@@ -20,8 +20,8 @@ class Basis {
   Index size() const { return std::ssize(body_->centers); }
 
   /** φ at the samples: samples × centers; every row sums to 1, but for rows where a kernel of compact support vanishes: there the
-   *  affine part alone acts. Fails with KERNEL_FAILED where a kernel of the caller's gave a number that is not finite, and with
-   *  INVALID_OPTION where kernels that change sign cancel each other, so that no sum is there to divide by. */
+   *  affine part alone acts. Fails with KERNEL_FAILED where a caller's kernel gave a number that is not finite, and with
+   *  INVALID_OPTION where kernels that change sign cancel each other, so that there is no sum to divide by. */
   template <typename Scalar>
   Result<Done> evaluate(const InteriorSamples& samples,
                         Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> phi) const;

@@ -90,8 +90,8 @@ void CenterSampling::add_center() {
   const Vector3 center = samples_.point(next_);
   distance_.measure(center, field_.data());
 
-  // Codes to this center's own scale, so that no floats have to be kept until the longest distance is known. Bridges make the
-  // domain connected; should a voxel still be out of reach, it is as far as can be.
+  // Codes in this center's own scale, so that no floats have to be kept until the longest distance is known. Bridges make the
+  // domain connected; a voxel that is still out of reach would get the longest distance.
   double longest = 1e-9;
   for (const double distance : field_) {
     if (distance > longest && distance <= std::numeric_limits<double>::max()) longest = distance;
@@ -99,8 +99,8 @@ void CenterSampling::add_center() {
   scales_.push_back(longest / most_code);
   for (const double distance : field_) distances_.push_back(nearest_code(std::min(distance, longest) * (most_code / longest)));
 
-  // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices that lie nearer to the new one
-  // as the crow flies than to any before can come nearer to it.
+  // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices whose straight distance to the
+  // new one is below their interior distance to every earlier one can come nearer to it.
   const auto interior = [&](std::uint32_t v) { return field_[v]; };
   approached_.clear();
   double farthest = -1;
@@ -128,7 +128,7 @@ void CenterSampling::add_center() {
   phase_ = Phase::quantize;
 }
 
-/** All centers' codes to one scale, which rounds them once more: they are off by one code at most. */
+/** Brings all centers' codes to one scale, which rounds them once more: they are off by one code at most. */
 void CenterSampling::quantize() {
   const auto row = std::ssize(field_);
   for (Index done = 0; done < codes_per_step && next_ < count_; done += row, ++next_) {

@@ -56,7 +56,7 @@ class CenterSampling {
   Phase phase_ = Phase::stencils;
   InteriorSamples samples_;  // of the vertices
   Outside outside_;
-  Index next_ = 0;                 // center: the vertex that becomes one, then the one whose codes are next
+  Index next_ = 0;                 // the vertex that becomes a center, then the center whose codes are next
   std::vector<double> field_;      // distances of all voxels from the newest center
   std::vector<double> ratios_;     // see InteriorSamples
   std::vector<double> coverage_;   // interior distance of each vertex from the nearest center so far

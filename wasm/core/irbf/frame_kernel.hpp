@@ -20,8 +20,8 @@ class FrameKernel {
   /** Stores `positions` (n×3) and `matrix` (n × columns) in tiles of vertices with the columns innermost: one pass over memory.
    *
    *  In fixed point, products of two columns at a time are added up by one instruction. A column is stored as its difference from
-   * its mean, scaled to 16 bits; the mean comes back as a translation. Coefficients are scaled for every 32
-   * columns, as far as no sum of them can overflow in any row: they keep 12 bits or more of their largest. */
+   *  its mean, scaled to 16 bits; the mean comes back as a translation. Coefficients are scaled for every 32 columns, as far as no
+   *  row's sum of them can overflow: the largest keeps 12 bits or more. */
   FrameKernel(const PointsF& positions, const MatrixF& matrix, FramePrecision precision);
 
   Index columns() const { return columns_; }
@@ -31,7 +31,7 @@ class FrameKernel {
   void apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, PointsF& displacement);
 
  private:
-  /** Vector types of the compiler's (GCC's extension, which Clang shares) and not Eigen's: Eigen's packets can only be had for the
+  /** The compiler's vector types (GCC's extension, which Clang shares) and not Eigen's: Eigen's packets can only be enabled for the
    *  whole program, at twice the size. */
   using Quad = float __attribute__((vector_size(16)));
   using Pairs = std::int16_t __attribute__((vector_size(16)));  // two columns of four vertices, a vertex's pair side by side
@@ -48,16 +48,16 @@ class FrameKernel {
 
   FramePrecision precision_;
   Index vertices_, columns_;
-  std::vector<FloatTile> positions_;  // 3 a tile: x, y, z
+  std::vector<FloatTile> positions_;  // 3 per tile: x, y, z
 
-  std::vector<FloatTile> floats_;  // columns a tile
+  std::vector<FloatTile> floats_;  // columns per tile
   PointsF coefficients_;
 
-  std::vector<FixedTile> fixed_;       // pairs of columns a tile
+  std::vector<FixedTile> fixed_;       // pairs of columns per tile
   std::vector<double> means_, units_;  // of the columns: a number is mean + unit · code
   std::vector<double> largest_sums_;   // of each chunk: the largest Σ |code| of a row
   std::vector<std::int32_t> packed_;   // pairs × 3: two coefficients each
-  std::vector<float> worth_;           // chunks × 3: what 1 stands for in a chunk's sums
+  std::vector<float> worth_;           // chunks × 3: the value of 1 in a chunk's sums
 };
 
 }  // namespace handlebody

@@ -12,8 +12,8 @@ namespace {
 constexpr double same_place = 1e-9;
 constexpr Index most_handles = 1024;
 
-/** Whether a point may carry a handle: inside, or as near to the surface as a voxel blurs. Vertices always may. The surface is
- * asked only where the voxels leave it open: its tree takes longer to make than all else that handles need. */
+/** Whether a point may carry a handle: inside, or so near to the surface that voxels cannot tell. Vertices always may. The surface
+ * is used only where voxels do not decide: its tree takes longer to build than all else that handles need. */
 bool is_near(const Body& body, std::unique_ptr<TriangleTree>& surface, const Vector3& point) {
   const double spacing = body.domain.grid().spacing;
   const std::int32_t voxel = body.domain.nearest(point);
@@ -108,7 +108,7 @@ Result<Done> HandleConstraints::read_targets(const double* targets, const Normal
     const bool rotates = kinds_[k] == HandleKind::rotation;
     const Eigen::Quaterniond rotation(target(6), target(3), target(4), target(5));
     const bool finite = rotates ? target.allFinite() && rotation.norm() > 1e-9 : target.head<3>().allFinite();
-    // A target far beyond any screen is a slip too, and its squares would overflow below.
+    // A target far beyond any screen is a mistake too, and its squares would overflow below.
     if (!finite || (target.head<3>() - normalization.center).norm() > 1e6 * normalization.diagonal) {
       return Error(HB_ERROR_TARGET_NOT_FINITE,
                    {"The target of handle ", k, (finite ? " is a million model sizes away." : " is not a finite number.")},

@@ -37,13 +37,13 @@ class HandleConstraints {
   /** Constraint points, solver space: a handle's own, then a rotation handle's six structure points. */
   const Points& points() const { return points_; }
 
-  /** S: one row a constraint, [s 1 φ(s)] for a point and [e 0 Δφ] for an edge. */
+  /** S: one row per constraint, [s 1 φ(s)] for a point and [e 0 Δφ] for an edge. */
   const MatrixXd& rows() const { return rows_; }
 
   /** The first handle that shares its place with an earlier one, or −1. */
   Index repeated() const;
 
-  /** target_size numbers a handle, model units, at rest. */
+  /** target_size numbers per handle, model units, at rest. */
   std::vector<double> rest(const ConstPoints& places) const;
 
   /** Where the constraint points are to go, solver space. Fails with TARGET_NOT_FINITE or HANDLE_CONFLICT. Allocates nothing. */
@@ -52,7 +52,7 @@ class HandleConstraints {
   /** T of the rows from the displacements of the constraint points, times `weight`. */
   void right_hand_side(const Points& displacements, double weight, Eigen::Ref<Columns3> out) const;
 
-  /** The largest distance between a handle's image and its target, from what the rows miss T by. */
+  /** The largest distance between a handle's image and its target, where the rows' residual against T is `missed`. */
   double largest_miss(const Columns3& missed) const;
 
  private:

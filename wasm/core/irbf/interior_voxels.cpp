@@ -10,8 +10,8 @@ namespace handlebody {
 namespace {
 
 constexpr Index triangles_per_step = 4096;
-// An open sheet winds about the points on its hollow side a little more than half; an inside has at least a fourth of it
-// surrounded.
+// On the hollow side of an open sheet the winding number is a little above a half. Of an inside, at least a fourth of the voxels
+// has a winding number above this.
 constexpr double surely = 0.75;
 
 }  // namespace
@@ -124,7 +124,7 @@ void InteriorVoxels::voxelize_slab() {
   phase_ = sure_ == 0 || 4 * sure_ < inside_.size() ? Phase::fill : Phase::domain;
 }
 
-/** What a shell of voxels encloses, where winding numbers do not tell; for a sheet, the shell itself. */
+/** What a shell of voxels encloses, where winding numbers do not decide; for a sheet, the shell itself. */
 Result<Done> InteriorVoxels::fill() {
   if (surface() && axis_ < 3) {
     if (!cross_triangles(axis_)) return Done{};

@@ -1,9 +1,9 @@
-// The first part of a bake: which voxels of a grid lie inside a model, and whether limbs run into one there. In bounded steps.
+// The first part of a bake: which voxels of a grid lie inside a model, and whether limbs merge there. In bounded steps.
 //
-// Inside are the voxels whose centers a closed surface winds about, whichever way. Where triangles are not closed as they are,
-// those that share edges are first turned to agree (orient_consistently). A surface that is then still open winds about a point at
-// least half. Where it hardly winds more about any, what the triangles enclose as a shell of voxels (filled_shell), as for a point
-// cloud. An open sheet encloses nothing: its own voxels are taken where that is allowed.
+// Inside are the voxels around whose centers a closed surface winds, in either direction. Where the triangles as given are not
+// closed, those that share edges are first turned to agree (orient_consistently). A surface that is then still open has a winding
+// number of a half or more inside. Where hardly any is much more, the inside is what the triangles enclose as a shell of voxels
+// (filled_shell), as for a point cloud. An open sheet encloses nothing: its own voxels are taken where that is allowed.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct InteriorOptions {
   Indices voxels;            // of the source `voxels`: linear indices into the grid, ascending
   bool allow_sheet = false;  // take an open sheet's own voxels, instead of failing
   int resolution = 0;        // of the grid, for messages
-  Index centers = 0;         // codes a voxel that are to be kept: too many are refused
+  Index centers = 0;         // codes to keep per voxel: too many are refused
 };
 
 class InteriorVoxels {

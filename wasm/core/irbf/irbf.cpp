@@ -46,7 +46,7 @@ Result<std::unique_ptr<Irbf>> Irbf::create(Body body, const IrbfOptions& options
   if (auto checked = check_body(body); !checked) return checked.error();
   const auto centers = static_cast<double>(body.centers.size());
   const auto spheres = static_cast<double>(body.spheres.size());
-  // The float matrix while the 16-bit one is made of it, the unknowns' matrices, the hat.
+  // The float matrix while the 16-bit one is made from it, the matrices of the unknowns, the hat matrix.
   const double bytes = 6 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + 9 * spheres) +
                        8 * 9 * spheres * spheres;
   if (bytes > most_bytes) {
@@ -145,9 +145,9 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   return Done{};
 }
 
-/** The other product of the appendix, N × (3B + K) instead of N × C, where it is the smaller one and soon made: few spheres, many
- *  centers. It depends on the handles, and for 173,000 vertices, 400 centers and 79 spheres (the paper's Armadillo) it takes 17
- *  billion multiplications a set of handles, seconds, where the 16-bit product with Ψ itself takes five milliseconds a frame. */
+/** The other product of the appendix, N × (3B + K) instead of N × C, where it is the smaller one and quickly made: few spheres,
+ *  many centers. It depends on the handles: for 173,000 vertices, 400 centers and 79 spheres (the paper's Armadillo) each set of
+ *  handles takes 17 billion multiplications, seconds, where the 16-bit product with Ψ itself takes five milliseconds a frame. */
 std::unique_ptr<FrameKernel> Irbf::make_handle_kernel(const ReducedSystem& system) const {
   const Index columns = system.inverse.cols(), centers = basis_->size(), count = psi_.rows();
   const double products = static_cast<double>(count) * static_cast<double>(columns * (4 + centers));
@@ -172,8 +172,8 @@ Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   }
   if (auto read = constraints_.read_targets(targets_.data(), body_.normalization, work_.targets); !read) return read.error();
 
-  // The energy does not change when the whole picture turns, so the solve happens in a frame that is carried along rigidly with the
-  // handles: what is unknown there is only the deformation, and it is exactly zero when the handles move rigidly.
+  // Rigid motions do not change the energy, so the solve happens in a frame that is carried along rigidly with the handles: the
+  // unknown there is only the deformation, and it is exactly zero when the handles move rigidly.
   const Points& points = constraints_.points();
   const RigidMotion frame = closest_rigid_motion(points, work_.targets);
   const Matrix3& turn = frame.rotation;
@@ -299,7 +299,7 @@ Result<Quality> Irbf::quality(const Eigen::Ref<const Tetrahedra>& tetrahedra) {
     quality = measure_tetrahedra(tetrahedra, body_.positions, deformed);
     quality.maximum_principle = principle;
   } else if (std::abs(at_rest) > 0.5 * inside && std::abs(at_rest) < 2 * inside) {
-    // The surface itself tells its volume better than voxels, where it is closed and oriented: soup and clouds are neither.
+    // Where the surface is closed and oriented, it gives the volume better than voxels; soup and clouds are neither.
     quality.volume_ratio = enclosed_volume(deformed, body_.triangles) / at_rest;
   }
   return quality;

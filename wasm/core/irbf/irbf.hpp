@@ -56,7 +56,7 @@ class Irbf {
 
   Index handle_count() const { return constraints_.handles(); }
 
-  /** target_size numbers a handle, in model units; at rest after set_handles. Written in place by the caller. */
+  /** target_size numbers per handle, in model units; at rest after set_handles. Written in place by the caller. */
   double* targets() { return targets_.data(); }
 
   /** Local/global iterations from the last solution until no sphere edge moves more than the tolerance. Goes on where it stopped
@@ -67,8 +67,8 @@ class Irbf {
    *  to turn, or null for area-weighted normals. Allocates nothing. */
   void deform(float* positions, const float* rest_normals, float* normals);
 
-  /** The deformation of any points (k×3, model units), in double precision. Far outside the model the affine part rules, with the
-   *  basis of the nearest voxels. Fails as Basis::evaluate does. */
+  /** The deformation of any points (k×3, model units), in double precision. Far outside the model the affine part dominates, with
+   *  the basis of the nearest voxels. Fails as Basis::evaluate does. */
   Result<Points> evaluate(const ConstPoints& points) const;
 
   /** How the present deformation treats volume and shape: on `tetrahedra` of vertices as stored (m×4), or on those that voxels make
@@ -80,11 +80,11 @@ class Irbf {
   const Basis& basis() const { return *basis_; }
   /** λ, as given or as chosen. */
   double smoothness() const { return smoothness_; }
-  /** Of the equations for the present handles; 0 before there are any. */
+  /** Condition number of the equations for the present handles; 0 before there are any. */
   double condition() const { return system_.condition; }
 
  private:
-  /** What a solve writes to, taken once. */
+  /** What a solve writes to, allocated once. */
   struct Workspace {
     Points targets, displacements;  // of the constraint points
     Columns3 solution;              // 4 + C
@@ -112,9 +112,9 @@ class Irbf {
   Triangles welded_triangles_;
   PointsF stored_;                                                            // as stored, model units
   PointsF rest_, displacement_, deformed_, rest_normals_, deformed_normals_;  // welded, solver space
-  std::unique_ptr<FrameKernel> frame_kernel_;                                 // Ψ, by the coefficients of the centers
+  std::unique_ptr<FrameKernel> frame_kernel_;                                 // Ψ, times the coefficients of the centers
   MatrixF psi_;                                                               // kept where the other product may be the smaller one
-  std::unique_ptr<FrameKernel> handle_kernel_;  // [x 1 Ψ] Z†, by the right-hand side of spheres and handles
+  std::unique_ptr<FrameKernel> handle_kernel_;  // [x 1 Ψ] Z†, times the right-hand side of spheres and handles
   ColumnRanges surface_ranges_;                 // of the basis functions over the vertices
   std::unique_ptr<VoxelQuality> voxel_quality_;
 

@@ -59,8 +59,8 @@ void LocalGlobal::plain_step(std::vector<Matrix3>& rotations) const {
   }
 }
 
-/** From rotations_, whose right-hand side and image are at hand. What Anderson combines are turned edges; the closest rotations
- * make a step of them again. */
+/** A step from rotations_, whose right-hand side and image are up to date. Anderson acceleration combines turned edges, from which
+ * closest rotations make a step again. */
 void LocalGlobal::accelerated_step() {
   if (hessian_.empty()) {
     plain_step(trial_);
@@ -83,7 +83,7 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
   LocalGlobalReport report;
   while (report.iterations < options.max_iterations && !report.converged) {
     ++report.iterations;
-    // The step is taken here and not at the end of the last iteration: a frame's only iteration has no next one.
+    // The step is taken here and not at the end of the last iteration, since a frame may have only one.
     const bool accelerated = options.accelerate && accelerated_;
     if (accelerated) {
       accelerated_step();
@@ -91,7 +91,7 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
       plain_step(trial_);
     }
     const double energy = this->energy(trial_);
-    if (accelerated && !(energy <= energy_ * (1 + rounding))) {  // the step did harm: a plain one cannot
+    if (accelerated && !(energy <= energy_ * (1 + rounding))) {  // the step raised the energy: a plain one cannot
       accelerated_ = false;
       this->energy(rotations_);  // their right-hand side and image again
       continue;

@@ -1,10 +1,10 @@
-// Minimization of the sphere energy (paper 001, §4.6) over the rotations of the spheres: local/global iterations, whose steps a
-// quasi-Newton direction lengthens (rotation_hessian.hpp) and Anderson acceleration combines, guarded by the energy as by Peng et
-// al. (2018). An iteration touches neither centers nor vertices.
+// Minimization of the sphere energy (paper 001, §4.6) over the rotations of the spheres: local/global iterations, whose steps are
+// lengthened by a quasi-Newton direction (rotation_hessian.hpp), combined by Anderson acceleration, and guarded by the energy as by
+// Peng et al. (2018). An iteration touches neither centers nor vertices.
 //
 // The dog, 112 spheres, 400 centers, a paw lifted; iterations from rest to within 10% and 1% of the least energy: local/global
-// alone 277, 908; with Anderson (window 8) 40, 78; with the quasi-Newton direction 5, 12; with both 3, 6. An iteration takes as
-// long, 0.1 ms.
+// alone 277, 908; with Anderson (window 8) 40, 78; with the quasi-Newton direction 5, 12; with both 3, 6. An iteration takes the
+// same time with each, 0.1 ms.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@ struct LocalGlobalReport {
 
 class LocalGlobal {
  public:
-  /** `edges`: three a sphere, weighted by √w (3B × 3); `edge_scale` 1/√w. */
+  /** `edges`: three per sphere, weighted by √w (3B × 3); `edge_scale` 1/√w. */
   LocalGlobal(Points edges, Vector edge_scale);
 
   /** The matrix of ReducedSystem; must outlive the iterations. Rotations stay. */
@@ -43,7 +43,7 @@ class LocalGlobal {
   /** The least energy for given rotations and the present constraints. */
   double energy(const std::vector<Matrix3>& rotations);
 
-  /** Begins at `rotations()`, whose energy was the last one asked for and came out as given; forgets earlier steps. */
+  /** Begins at `rotations()`, for which energy() was called last and gave `energy`; forgets earlier steps. */
   void start(double energy);
 
   /** Goes on from where it stopped. Allocates nothing. Leaves the best rotations in rotations(), and their right-hand side. */

@@ -85,7 +85,7 @@ Error too_large(Index voxels, double bytes) {
 Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
   const VoxelDomain& domain = body.domain;
   const Grid& grid = domain.grid();
-  // Indices of the grid's corners; of a voxel, six tetrahedra and at most eight corners of its own.
+  // Bytes of the grid's corner numbers; per voxel, six tetrahedra and at most eight corners of its own.
   const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};
   const double fixed = 4.0 * static_cast<double>(across[0] * across[1] * across[2]) + 1300.0 * static_cast<double>(domain.size());
   if (fixed > most_bytes) return too_large(domain.size(), fixed);

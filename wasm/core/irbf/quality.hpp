@@ -17,7 +17,7 @@ struct Quality {
   Index flips = 0;  // tetrahedra turned inside out
   Index tetrahedra = 0;
   /** The most by which a basis function inside the body leaves the range that it has on the surface, over that range: 0 where the
-   *  maximum principle holds. Only what the voxels' corners see. */
+   *  maximum principle holds. Evaluated at the voxels' corners only. */
   double maximum_principle = 0;
 };
 
@@ -28,7 +28,7 @@ Quality measure_tetrahedra(const Eigen::Ref<const Tetrahedra>& tetrahedra, const
 struct ColumnRanges {
   std::vector<float> low, high;
 
-  /** Of each column of a matrix. */
+  /** The ranges of each column of a matrix. */
   static ColumnRanges of(const MatrixF& matrix);
 };
 

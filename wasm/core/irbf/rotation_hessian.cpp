@@ -9,10 +9,10 @@ namespace handlebody {
 
 namespace {
 
-/** The part of local/global's own curvature that is added. Rotations that nothing resists (a single handle) have none at all, and
- * the forces that the residual leaves out here matter more than the curvature of the longest waves. On the dog, 112 spheres, 200
- * centers and 400, iterations from rest to 10% and 1% of the least energy: 1e-3: 6, 10 and 3, 5; 1e-2: 5, 8 and 4, 7; 3e-2: 7, 14
- * and 6, 10. */
+/** The fraction of the local/global iteration's own curvature that is added. Rotations that nothing resists (a single handle) have
+ * no curvature at all, and the terms with the residual, which are left out here, matter more than the curvature of the longest
+ * waves. On the dog, 112 spheres, 200 centers and 400, iterations from rest to 10% and 1% of the least energy: 1e-3: 6, 10 and 3,
+ * 5; 1e-2: 5, 8 and 4, 7; 3e-2: 7, 14 and 6, 10. */
 constexpr double damping = 1e-2;
 /** More spheres than this would take longer to factor than they save. */
 constexpr Index most_spheres = 400;

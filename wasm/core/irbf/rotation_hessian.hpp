@@ -1,8 +1,8 @@
 // The curvature of the sphere energy over the rotations of the spheres, factored once for a set of handles.
 //
-// With the mapping solved for, eq. (10) is a function of the rotations alone: F = rhsᵀ(I − hat) rhs. Local/global iterations
-// descend it by steps that bound the curvature by that of hat = 0; slow are the long waves, a limb's spheres turning together,
-// which I − hat hardly resists. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, knows them.
+// With the mapping solved for, eq. (10) is a function of the rotations alone: F = rhsᵀ(I − hat) rhs. Local/global iterations take
+// steps that bound its curvature by that of hat = 0. They are slow for the long waves, where a limb's spheres turn together, since
+// I − hat hardly resists these. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, has that small curvature.
 //
 // Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as
 // long as sixty of them.
@@ -19,7 +19,7 @@ class RotationHessian {
  public:
   RotationHessian() = default;
 
-  /** `edges` √w e (3B×3), `hat` of ReducedSystem. Stays empty where there are too many spheres for it to pay. */
+  /** `edges` √w e (3B×3), `hat` of ReducedSystem. Stays empty where there are too many spheres for it to pay off. */
   RotationHessian(const Points& edges, const MatrixXd& hat);
 
   bool empty() const { return !factor_.has_value(); }

@@ -1,4 +1,4 @@
-// The energy of paper 001, eqs. (8)–(10), as rows of a least squares problem: what the spheres say of the mapping's parameters.
+// The energy of paper 001, eqs. (8)–(10), as rows of a least squares problem for the mapping's parameters.
 #pragma once
 
 #include "core/errors/result.hpp"
@@ -7,7 +7,7 @@
 
 namespace handlebody {
 
-/** Three perpendicular edges a sphere. Eq. (8) squares a residual weighted by w = ‖e‖^α, so every row carries √w. */
+/** Three perpendicular edges per sphere. Eq. (8) squares a residual weighted by w = ‖e‖^α, so every row carries √w. */
 struct SphereEnergy {
   Points edges;       // 3B×3: √w e
   Vector edge_scale;  // 3B: 1/√w
@@ -23,10 +23,10 @@ Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, do
  *
  *  The part was picked by sweeps of λ over nine decades on a bar bent by 90° (5 to 18 spheres, 100 and 300 centers, widths 1 to 4)
  *  and the dog with a paw lifted (200 and 400 centers, widths 1.5 to 6), by the total distortion of tetrahedra and, on the dog, by
- *  how little the other leg moves. Its distortion is within about a third of the least of any λ on the bar and, for widths to 4,
- * the dog of 200 centers. With 400 centers and widths of 3 or 4 far smaller λ do well, and it is two to three times the least: a
- * part that is safe for few centers is cautious for many. Of the other rules that were tried, a fixed λ fails where the width
- * changes, and a part of Σ w‖e‖² over the number of centers is as good at one width and 20 times too large at twice that. */
+ *  how little the other leg moves. Distortion is then within about a third of the least of any λ on the bar and, for widths to 4,
+ *  the dog of 200 centers. With 400 centers and widths of 3 or 4 far smaller λ do well, and it is two to three times the least: a
+ *  part that is safe for few centers is cautious for many. Of the other rules that were tried, a fixed λ fails where the width
+ *  changes, and a part of Σ w‖e‖² over the number of centers is as good at one width and 20 times too large at twice that. */
 double automatic_smoothness(const SphereEnergy& energy);
 
 }  // namespace handlebody

@@ -20,8 +20,8 @@ struct SpherePackingOptions {
   double min_radius = 0.9;  // in voxel spacings
   double max_overlap = 0;   // two spheres may overlap by this part of the smaller radius; negative keeps them apart
   // Spheres are centered near the medial axis only: where the distance to the surface rises toward some neighbor by more than this
-  // part of the step, a larger sphere lies that way. 1 admits every voxel, and then the crumbs between a torso's large spheres are
-  // taken before a leg's whole bones: on the dog, 100 spheres left the lower legs bare, and a pulled paw drew out a ribbon.
+  // part of the step, a larger sphere lies that way. 1 admits every voxel, and then small spheres between a torso's large ones are
+  // taken before those along a leg's bones: on the dog, 100 spheres left the lower legs bare, and a pulled paw drew out a ribbon.
   // This and the three above were picked by a sweep on the dog alone.
   double medial_slope = 0.9;
 };

@@ -6,8 +6,8 @@
 namespace handlebody {
 
 /** Every occupied cell of an octree over the domain proposes the largest sphere inscribed at one of its voxels, at the deepest
- * level whose pruned spheres are no more than max_spheres; then they are pruned as pack_spheres does, larger first. So where that
- * follows bones, this spreads over the volume: broad parts get many spheres of like size.
+ * level whose pruned spheres are no more than max_spheres; then they are pruned as in pack_spheres, larger first. While
+ * pack_spheres follows bones, this spreads over the volume: broad parts get many spheres of similar size.
  *
  *  This is much simpler than Bradshaw and O'Sullivan's: they approximate the medial axis by a Voronoi diagram that is refined as it
  *  goes, and make a hierarchy of spheres that cover the object, for collisions; IRBF wants one level, inside and apart, and has

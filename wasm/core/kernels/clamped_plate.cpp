@@ -32,7 +32,7 @@ double integral(double q, double b, int m, Index d) {
     }
     return sum * b / 4;
   }
-  // With w² = q + t: ∫ (w² − q)^(m−1) w^(1−d) dw from √q to √(q + b), expanded. The last term leads, so little cancels.
+  // With w² = q + t: ∫ (w² − q)^(m−1) w^(1−d) dw from √q to √(q + b), expanded. The last term dominates, so little cancels.
   const double low = std::sqrt(q), high = std::sqrt(q + b);
   double sum = 0, factor = 1;  // (m−1 choose j) (−q)^(m−1−j), from j = m − 1 down
   for (int j = m - 1; j >= 0; --j) {

@@ -1,5 +1,5 @@
-// Boggio's formula (1905): the Green's function of (−Δ)^m in the unit ball of d dimensions with all derivatives below m zero on the
-// sphere,
+// Boggio's formula (1905): the Green's function of (−Δ)^m in the unit ball of d dimensions, with all derivatives of order below m
+// zero on the sphere,
 //
 //   G(x, y) = k ‖x−y‖^(2m−d) ∫₁^(A/‖x−y‖) (v² − 1)^(m−1) v^(1−d) dv,    A² = ‖x−y‖² + b,   b = (1 − ‖x‖²)(1 − ‖y‖²).
 //

@@ -1,10 +1,10 @@
 // Radial kernels φ(s) of s = r/width, and what is known of their definiteness. A kernel without a width ignores it.
 //
 // A kernel is conditionally positive definite of order m where Σ cᵢcⱼ φ(‖xᵢ − xⱼ‖) > 0 for all distinct points and all c ≠ 0 with
-// Σ cᵢ p(xᵢ) = 0 for every polynomial p of degree below m. Some are so only times −1. With a tail of degree m − 1 or more the
-// interpolation equations are then regular, and Cholesky solves them once the side conditions are eliminated. In how many
-// dimensions that is a theorem: Wendland, Scattered Data Approximation (2005), chapters 6–9; Fasshauer, Meshfree Approximation
-// Methods with MATLAB (2007), appendix D; Buhmann, Math. Comp. 70 (2001).
+// Σ cᵢ p(xᵢ) = 0 for every polynomial p of degree below m. Some kernels are so only after multiplication by −1, their sign. With a
+// tail of degree m − 1 or more the interpolation equations are then regular, and Cholesky solves them once the side conditions are
+// eliminated. In how many dimensions this is proved: Wendland, Scattered Data Approximation (2005), chapters 6–9; Fasshauer,
+// Meshfree Approximation Methods with MATLAB (2007), appendix D; Buhmann, Math. Comp. 70 (2001).
 //
 //                                                        order m    sign            dimensions
 //   Gaussian, inverse multiquadric, inverse quadratic    0          1               all
@@ -52,7 +52,7 @@ constexpr unsigned plain_kernel_count = 8;
 struct CustomKernel {
   double (*function)(const void* context, double s, bool derivative) = nullptr;
   const void* context = nullptr;
-  int minimum_degree = -1;  // what the caller says of it
+  int minimum_degree = -1;  // as the caller declares it
 };
 
 struct Kernel {
@@ -77,25 +77,25 @@ struct Kernel {
    * infinite, at the center itself: there the gradient's limit is 0, or none exists. */
   void slopes(double* squared, Index count) const;
 
-  /** Whether the width enters. */
+  /** Whether the kernel depends on the width. */
   bool has_width() const;
 
-  /** e of φ(cr) = c^e φ(r), up to polynomials that the tail takes up; 0 for a kernel with a width. */
+  /** e of φ(cr) = c^e φ(r), up to polynomials that the tail absorbs; 0 for a kernel with a width. */
   int homogeneity() const;
 
-  /** m of the table above; where it is unknown, what the tail needs by the caller's word or by use. */
+  /** m of the table above; where it is unknown, the one that the caller declares, or the customary one. */
   int order() const;
 
   /** The table's sign; 1 where it is unknown. */
   double sign() const;
 
-  /** Largest dimension in which these are a theorem: 0 for none, 1000 for all. */
+  /** Largest dimension in which order and sign are proved: 0 for none, 1000 for all. */
   int definite_to_dimension() const;
 
   /** Lowest polynomial degree whose tail makes interpolation well posed (−1: none needed). */
   int minimum_degree() const { return order() - 1; }
 
-  /** Whether φ(0) = 0, so that a single kernel says nothing at its own place. */
+  /** Whether φ(0) = 0, so that a single kernel is 0 at its own center. */
   bool vanishes_at_center() const;
 };
 

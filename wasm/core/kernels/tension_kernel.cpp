@@ -15,7 +15,7 @@ constexpr double underflow = 746;  // of e^{−x}
 // From this hr on the roots are so far apart that g_a − g_b does not cancel: g_b is at most e^{−2hr} g_a.
 constexpr double apart = 0.5;
 
-// Series in 2D end at this br, where K₀'s terms begin to cancel. Close roots then have ar > 1, as the quadrature wants it.
+// Series in 2D end at this br, where K₀'s terms begin to cancel. Close roots then have ar > 1, as the quadrature requires.
 constexpr double largest_for_series = 2;
 
 /** g_k(r), the Green's function of −Δ + k². */
@@ -73,7 +73,7 @@ Result<TensionKernel> TensionKernel::create(double alpha, double beta, double ga
       const double imaginary = kernel.h2_ < 0 ? std::sqrt(-kernel.h2_) : 0, part = 2 * kernel.h_ / kernel.a_;
       kernel.log_ratio_ = imaginary > 0 ? std::atan2(imaginary, m) / (imaginary * m) : log_one_plus_over(part) / (kernel.a_ * m);
     }
-    // Everything that is divided by; the value at r = 0 is the largest, where there is no tail.
+    // Every divisor must be in range, and so must the value at r = 0, which is the largest where there is no tail.
     const double scale = kernel.factor_ / (m * m);
     if (!(m * m * m > 0) || !(scale > 0) || !std::isfinite(scale) || !std::isfinite(m * m * m) || !std::isfinite(kernel.value(0)))
       return option_error(
@@ -84,7 +84,7 @@ Result<TensionKernel> TensionKernel::create(double alpha, double beta, double ga
 }
 
 Result<TensionKernel> TensionKernel::scaled(double scale, double factor) const {
-  // ∫dx, ∇² and Δ² in the new units; δ goes with ∫dx.
+  // ∫dx, ∇² and Δ² in the new units; δ changes as 1/∫dx.
   const double volume = dimension_ == 1 ? scale : dimension_ == 2 ? scale * scale : scale * scale * scale;
   const double squared = scale * scale, unit = 1 / (factor * volume);
   return create(alpha_ * (squared * squared * unit), beta_ * (squared * unit), gamma_ * unit, dimension_);

@@ -2,12 +2,12 @@
 //
 //   α Δ²G − β ΔG + γ G = δ      in 1, 2 or 3 dimensions,
 //
-// for f = Σ wᵢ G(‖x − xᵢ‖) + tail, (G + σI)w + tail = y, minimizes
+// with which f = Σ wᵢ G(‖x − xᵢ‖) + tail, (G + σI)w + tail = y, minimizes
 //
 //   Σ (f(xᵢ) − yᵢ)²/σ + α ∫(∇²f)² + β ∫|∇f|² + γ ∫f²        (σ = 1 is eq. (2) as printed, σ = 0 interpolates).
 //
 // With a², b² the roots of αx² − βx + γ = 0 and g_k the Green's function of −Δ + k², which is e^{−kr}/(2k), K₀(kr)/(2π) or
-// e^{−kr}/(4πr), it is a divided difference of g_k over k² (H. Mitášová & L. Mitáš, Mathematical Geology 25, 1993; P. Wessel &
+// e^{−kr}/(4πr), G is a divided difference of g_k over k² (H. Mitášová & L. Mitáš, Mathematical Geology 25, 1993; P. Wessel &
 // D. Bercovici, Mathematical Geology 30, 1998, for γ = 0),
 //
 //   G = (g_a − g_b) / (α (b² − a²)).
@@ -17,8 +17,8 @@
 //
 //   G = e^{−mr} (cosh hr + m sinh(hr)/h) / (4α m (m² − h²)).
 //
-// Where γ = 0 constants cost nothing, and where β = 0 as well linear functions: the tail consists of them, and the kernel is known
-// only up to them. G(0) = 0 is chosen (C is Euler's constant):
+// Where γ = 0, constants have no energy, and where β = 0 as well, linear functions have none: the tail consists of these, and the
+// kernel is determined only up to them. G(0) = 0 is chosen (C is Euler's constant):
 //
 //              1D                          2D                                3D
 //   γ = 0      −(br + e^{−br} − 1)/(2αb³)  −(ln(br/2) + C + K₀(br))/(2παb²)  −(br + e^{−br} − 1)/(4παb²r)  b² = β/α
@@ -40,21 +40,21 @@ class TensionKernel {
    *  three zero; α = 0 in 2D and 3D, where G(0) is infinite, or with β = 0; or lengths (α/β)^½, (α/γ)^¼ beyond double precision. */
   static Result<TensionKernel> create(double alpha, double beta, double gamma, Index dimension);
 
-  /** G(r), r ≥ 0, to about 1e-14 of itself, or, where it oscillates, of its envelope. */
+  /** G(r), r ≥ 0, to about 1e-14 of its value, or where it oscillates, of its envelope. */
   double value(double r) const;
 
   /** G′(r); at r = 0 the limit from the right, which is not 0 where G has a kink: in 3D, and for α = 0. */
   double slope(double r) const;
 
-  /** The degree of the tail, which is made of what the functional does not see: −1 (γ > 0), 0 (γ = 0) or 1 (β = γ = 0). */
+  /** The degree of the tail, which consists of the functions without energy: −1 (γ > 0), 0 (γ = 0) or 1 (β = γ = 0). */
   int minimum_degree() const { return gamma_ > 0 ? -1 : beta_ > 0 ? 0 : 1; }
 
-  /** The same for points whose coordinates are all multiplied by `scale`, times `factor`: scaled(s, c).value(s·r) = c·value(r), up
-   * to the tail. */
+  /** The kernel for points whose coordinates are all multiplied by `scale`, times `factor`: scaled(s, c).value(s·r) = c·value(r),
+   * up to the tail. */
   Result<TensionKernel> scaled(double scale, double factor = 1) const;
 
  private:
-  /** Two dimensions, roots that are close or a complex pair. */
+  /** Value and slope, in two dimensions where the roots are close or a complex pair. */
   struct Jet {
     double value, slope;
   };
@@ -68,7 +68,7 @@ class TensionKernel {
   double m_ = 0;
   double h_ = 0, h2_ = 0;  // h2 < 0 and h = 0 for a complex pair
   double factor_ = 0;      // 1/(4αm)
-  double log_ratio_ = 0;   // (ln b² − ln a²)/(b² − a²), the value in 2D at r = 0 but for a factor
+  double log_ratio_ = 0;   // (ln b² − ln a²)/(b² − a²), the value in 2D at r = 0 up to a factor
 };
 
 }  // namespace handlebody

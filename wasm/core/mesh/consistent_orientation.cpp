@@ -10,11 +10,11 @@
 namespace handlebody {
 namespace {
 
-/** The sides of all triangles, side 3t + c running from corner c to the next, with those of one edge in a row. */
+/** The sides of all triangles, sorted so that those of one edge are adjacent. Side 3t + c runs from corner c to the next. */
 class Edges {
  public:
   Edges(const Triangles& triangles, Index vertices) : triangles_(triangles) {
-    // By the lower end in one pass, then by the higher among the few that share it.
+    // Sorted by the lower end in one pass, then by the higher among the few that share it.
     Indices starts(static_cast<std::size_t>(vertices) + 1);
     const auto count = static_cast<std::uint32_t>(triangles.size());
     const auto for_each_side = [&](const auto& visit) {
@@ -101,7 +101,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
     return result;
   }
 
-  // Neighbors across edges of two, and whether they disagree there.
+  // Neighbors across edges that exactly two triangles share.
   Indices across(triangles.size(), no_index);
   edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
     if (last - first == 2) across[first[0]] = first[1], across[first[1]] = first[0];
@@ -109,7 +109,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   std::vector<std::uint8_t> turned(count);
   Indices part(count, no_index), queue;
-  std::vector<std::size_t> starts;  // of the parts in the queue
+  std::vector<std::size_t> starts;  // where each part starts in the queue
   for (std::uint32_t seed = 0; seed < count; ++seed) {
     if (part[seed] != no_index) continue;
     std::size_t head = queue.size();
@@ -129,7 +129,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
   }
   starts.push_back(queue.size());
 
-  // A part is closed where its own sides balance on every edge.
+  // A part is closed where on every edge as many of its sides run one way as the other.
   std::vector<std::uint8_t> open(starts.size());
   std::vector<int> sum(starts.size());
   edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {

@@ -7,11 +7,11 @@ namespace handlebody {
 
 namespace {
 
-/** Normals of a simplex's faces or edges, across from each corner, as long as these are: gradients of the hat functions times
- * −d·volume. */
+/** Normals of the edges or faces opposite each corner of a simplex, with their length or area for a length: the gradients of the
+ * hat functions times −d·volume. */
 void face_normals(const std::array<Vector3, 4>& p, Index corners, std::array<Vector3, 4>& normals) {
   if (corners == 3) {
-    // An edge turned by a right angle: only products of two of them matter, so that the edges themselves will do.
+    // The normal is the edge turned by a right angle. Only products of two normals matter, so the edges themselves will do.
     for (std::size_t k = 0; k < 3; ++k) normals[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
     return;
   }
@@ -36,7 +36,7 @@ SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
       p[k] = {at[0], at[1], d == 3 ? at[2] : 0.0};
     }
     face_normals(p, corners, normals);
-    // ∫ ∇φᵢ·∇φⱼ = nᵢ·nⱼ / (d² volume). The diagonal is minus the others' sum, so that constants vanish to the last bit.
+    // ∫ ∇φᵢ·∇φⱼ = nᵢ·nⱼ / (d² volume). The diagonal is minus the sum of the others, so that constants vanish to the last bit.
     const double scale = 1 / (order * order * simplex_volume(mesh, s));
     for (Index i = 0; i < corners; ++i) {
       for (Index j = 0; j < i; ++j) {

@@ -6,9 +6,9 @@
 
 namespace handlebody {
 
-/** C, n×n and symmetric, with fᵀ C f = ∫ |∇f|² of functions that are linear on each simplex: on triangles Cᵢⱼ = −(cot αᵢⱼ + cot
- * βᵢⱼ)/2 of the angles across the edge, and rows sum to 0. Minus the lecture's C and libigl's `cotmatrix`. No units in 2D; a length
- * on tetrahedra. The mesh must have been checked. */
+/** C, n×n and symmetric, with fᵀ C f = ∫ |∇f|² for functions that are linear on each simplex: on triangles Cᵢⱼ = −(cot αᵢⱼ + cot
+ * βᵢⱼ)/2 of the angles opposite the edge, and rows sum to 0. The negative of the lecture's C and of libigl's `cotmatrix`. No units
+ * in 2D; a length on tetrahedra. The mesh must have been checked. */
 SparseMatrix cotangent_laplacian(const SimplexMesh& mesh);
 
 }  // namespace handlebody

@@ -1,5 +1,5 @@
-// A cube in six tetrahedra (Kuhn 1960): the ways from corner 0 to corner 7 along three edges, where corner i + 2j + 4k is (i, j,
-// k).
+// A cube split into six tetrahedra (Kuhn 1960), one for each path from corner 0 to corner 7 along three edges, where corner
+// i + 2j + 4k is (i, j, k).
 #pragma once
 
 #include <array>

@@ -11,13 +11,13 @@ namespace handlebody {
 
 namespace {
 
-constexpr double at_corner = 1e-12;  // distance from a corner, of the farthest corner's
-constexpr double edge_on = 1e-10;    // sine of the angle between a plane and the view
+constexpr double at_corner = 1e-12;  // distance from a corner, relative to that from the farthest corner
+constexpr double edge_on = 1e-10;    // sine of the angle between a plane and the line of sight
 constexpr std::uint32_t leaf_size = 8;
 
-// Distance of a node, in radii, beyond which its triangles count as one, by the side that they show on the whole. On the dog
-// (33,900 triangles), 32 functions from -1 to 1 at voxel centers: difference from one-sided coordinates, and time of a point
-// natively:
+// Distance of a node, in radii, beyond which its triangles count as one, on the side that the sum of their area vectors shows. On
+// the dog (33,900 triangles), 32 functions from -1 to 1 at voxel centers: difference from one-sided coordinates, and native time
+// per point:
 //
 //    opening    mean      largest   microseconds
 //    2.5        0.0012    0.015     27
@@ -29,8 +29,8 @@ constexpr double opening = 4;
 
 }  // namespace
 
-/** Ju et al.'s mean vector: m, the integral of the unit vector over the spherical triangle, is Σ θₖ Nₖ/2 of its sides, and the
- *  weights are its parts along the corners: wᵢ = Nᵢ·m / (Nᵢ·uᵢ rᵢ), Nᵢ being normal to the other two corners. */
+/** Ju et al.'s mean vector: m, the integral of the unit vector over the spherical triangle, is the sum of θₖ Nₖ/2 over its sides,
+ *  and the weights are its components along the corners: wᵢ = Nᵢ·m / (Nᵢ·uᵢ rᵢ), Nᵢ being normal to the other two corners. */
 TriangleShare triangle_share(const Vector3& point, const Vector3& a, const Vector3& b, const Vector3& c) {
   TriangleShare share;
   Vector3 u[3] = {a - point, b - point, c - point}, normal[3];
@@ -57,7 +57,7 @@ TriangleShare triangle_share(const Vector3& point, const Vector3& a, const Vecto
   }
   const double determinant = u[0].cross(u[1]).dot(u[2]);
   if (std::abs(determinant) <= edge_on * std::max({sine[0], sine[1], sine[2]})) {
-    // In the triangle's plane: on it if the corners are all around.
+    // The point is in the triangle's plane, and on the triangle if the corners surround it.
     if (around < 2 * std::numbers::pi - 1e-6 || sine[0] + sine[1] + sine[2] == 0) return share;
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += share.weights[k] = sine[k] * r[(k + 1) % 3] * r[(k + 2) % 3];
@@ -87,7 +87,7 @@ Vector mean_value_coordinates(const ConstPoints& positions, const ConstTriangles
     Vector& sum = sums[share.side < 0];
     for (int k = 0; k < 3; ++k) sum[triangles(t, k)] += share.weights[k];
   }
-  // Along every ray the surface shows its sides in turn, the first hit counting most: inside the inner sides win.
+  // Along every ray the surface shows its sides in turn, and the first hit counts most: inside, inner sides outweigh outer ones.
   const double inner = sums[0].sum(), outer = sums[1].sum();
   if (!one_side) return (sums[0] + sums[1]) / (inner + outer);
   return inner >= -outer ? sums[0] / inner : sums[1] / outer;
@@ -110,7 +110,7 @@ void MeanValueField::build(std::uint32_t* first, std::uint32_t* last) {
     nodes_[node].first = static_cast<std::uint32_t>(first - order_.data());
     nodes_[node].count = static_cast<std::uint32_t>(last - first);
   } else {
-    // Halves along the longest side of the box of the triangles' middles.
+    // Halves, by centroid, along the longest side of the box of the triangles' first corners.
     Vector3 low = corner(*first, 0), high = low;
     for (const std::uint32_t* t = first; t < last; ++t) low = low.cwiseMin(corner(*t, 0)), high = high.cwiseMax(corner(*t, 0));
     int axis = 0;

@@ -1,5 +1,5 @@
 // Mean value coordinates of closed triangle meshes (Floater, Kós & Reimers 2005; Ju, Schaefer & Warren 2005): a function on the
-// surface carried inside as the mean of what is seen in every direction, near surfaces counting more (1/r).
+// surface is extended to the inside as its mean over all directions of view, where near surfaces count more (1/r).
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@ struct TriangleShare {
 TriangleShare triangle_share(const Vector3& point, const Vector3& a, const Vector3& b, const Vector3& c);
 
 /** Coordinates of a point with respect to every vertex of a closed mesh; they sum to 1. With all triangles they reproduce linear
- *  functions, but on shapes that are not convex some are negative: near a surface that faces another across a thin gap they are as
- *  large as they like. With `one_side` only triangles that show the point their inner side count (their outer side, for a point
- *  outside the mesh): coordinates are never negative, still continuous, and on a convex mesh the same. */
+ *  functions, but on shapes that are not convex some are negative, and near a surface that faces another across a thin gap they
+ *  grow without bound. With `one_side` only triangles that show the point their inner side count (their outer side, for a point
+ *  outside the mesh): coordinates are then never negative, still continuous, and the same on a convex mesh. */
 Vector mean_value_coordinates(const ConstPoints& positions, const ConstTriangles& triangles, const Vector3& point, bool one_side);
 
-/** Functions on a closed surface, carried to many points with one-sided coordinates: triangles that are far off together are taken
- *  together, by the side that they show on the whole. Off by about 0.05% of the range of the values, 0.5% at most. */
+/** Functions on a closed surface, extended to many points by one-sided coordinates. Distant triangles are treated in groups, each
+ *  as one, on the side that the sum of their area vectors shows. Off by about 0.05% of the range of the values, 0.5% at most. */
 class MeanValueField {
  public:
-  /** `values` has a row a vertex. Copies what it needs; about 8 + (columns + 16)/2 floats a triangle on top of the mesh and
+  /** `values` has one row per vertex. Copies what it needs; about 8 + (columns + 16)/2 floats per triangle on top of the mesh and
    * values. */
   MeanValueField(const ConstPoints& positions, const ConstTriangles& triangles, const MatrixF& values);
 
@@ -43,7 +43,7 @@ class MeanValueField {
   // Depth first: the left child of an inner node follows it, `skip` is the first node after its subtree.
   struct Node {
     Vector3 center;              // of area
-    double radius;               // of a ball about it that holds the triangles
+    double radius;               // of a ball around it that contains the triangles
     Vector3 area;                // vector area, Σ n A
     std::uint32_t first, count;  // triangles of a leaf; count is 0 in an inner node
     std::uint32_t skip;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double most_entries = std::numeric_limits<std::int32_t>::max();
 
-/** An upper bound of the entries of A B, which may fall on each other. */
+/** An upper bound on the number of entries of A B: entries that coincide are counted more than once. */
 double most_product_entries(const SparseMatrix& a, const SparseMatrix& b) {
   const std::int32_t* const starts = b.outerIndexPtr();
   double total = 0;
@@ -24,7 +24,7 @@ double most_product_entries(const SparseMatrix& a, const SparseMatrix& b) {
 }  // namespace
 
 Result<SparseMatrix> polyharmonic_energy(const SparseMatrix& laplacian, const Vector& mass, int order) {
-  // Vertices in no simplex have no mass and no neighbors: nothing is divided by it.
+  // Vertices in no simplex have no mass and no neighbors: 0 stands for the inverse of their mass.
   const Vector inverse_mass = mass.unaryExpr([](double m) { return m > 0 ? 1 / m : 0.0; });
   SparseMatrix q = laplacian;
   for (int k = 1; k < order; ++k) {

@@ -1,4 +1,4 @@
-// The energies whose least functions are skinning weights and smooth deformations (Botsch & Kobbelt 2004, Jacobson et al. 2010).
+// The energies whose minimizers are skinning weights and smooth deformations (Botsch & Kobbelt 2004, Jacobson et al. 2010).
 #pragma once
 
 #include "core/errors/result.hpp"
@@ -10,9 +10,9 @@ namespace handlebody {
  *
  *    Q = (L M⁻¹)^(order − 1) L
  *
- * n×n and symmetric but for rounding, from L, the cotangent Laplacian, and M, the masses of the vertices; one without mass, which
- * is in no simplex, gets 0. OUT_OF_MEMORY, before anything is allocated, where Q might have 2³¹ entries or more: that is what a
- * vertex with some 50,000 neighbors comes to. */
+ * n×n and symmetric but for rounding, from the cotangent Laplacian L and the vertices' masses M. A vertex without mass, which is in
+ * no simplex, has a row of zeros. OUT_OF_MEMORY, before anything is allocated, where Q might have 2³¹ entries or more, as with a
+ * vertex of some 50,000 neighbors. */
 Result<SparseMatrix> polyharmonic_energy(const SparseMatrix& laplacian, const Vector& mass, int order);
 
 }  // namespace handlebody

@@ -1,4 +1,4 @@
-// Triangles in the plane or in space, or tetrahedra: what finite elements are made on.
+// Triangles in the plane or in space, or tetrahedra: the meshes of finite elements.
 #pragma once
 
 #include "core/errors/result.hpp"
@@ -18,16 +18,16 @@ struct SimplexMesh {
 /** Area of a triangle or volume of a tetrahedron (without sign). */
 double simplex_volume(const SimplexMesh& mesh, Index simplex);
 
-/** Sizes that fit, finite positions, indices in range. MESH_TOO_LARGE, MESH_TOO_FEW_VERTICES, MESH_NOT_FINITE, MESH_NO_TRIANGLES,
- *  MESH_ZERO_EXTENT or MESH_INDEX_OUT_OF_RANGE. */
+/** Checks that sizes fit, positions are finite and indices in range. MESH_TOO_LARGE, MESH_TOO_FEW_VERTICES, MESH_NOT_FINITE,
+ *  MESH_NO_TRIANGLES, MESH_ZERO_EXTENT or MESH_INDEX_OUT_OF_RANGE. */
 Result<Done> check_simplex_mesh(const SimplexMesh& mesh);
 
-/** No simplex is without volume (less than 1e-14 of its longest edge's square or cube), which no cotangent stands. MESH_DEGENERATE.
- * Of a mesh that was checked. */
+/** Checks that no simplex is degenerate (of an area or volume below 1e-14 of its longest edge's square or cube), where cotangents
+ * cannot be computed. MESH_DEGENERATE. The mesh must have been checked. */
 Result<Done> check_volumes(const SimplexMesh& mesh);
 
-/** The number of each vertex's connected part, counted from 0 in the order of their first vertices; one in no simplex is a part of
- * its own. */
+/** The number of each vertex's connected part, counted from 0 in the order of their first vertices; a vertex in no simplex is a
+ * part of its own. */
 Indices connected_parts(const SimplexMesh& mesh);
 
 }  // namespace handlebody

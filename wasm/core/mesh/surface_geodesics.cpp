@@ -8,7 +8,7 @@ namespace handlebody {
 
 namespace {
 
-/** A better distance must be shorter by this part, or rounding would have the last word and vertices would be visited again. */
+/** A new distance must be shorter by this fraction, or rounding errors would make vertices be visited again. */
 constexpr double worth = 1e-9;
 
 }  // namespace
@@ -53,9 +53,9 @@ void SurfaceGeodesics::offer(std::uint32_t vertex, double distance, double* dist
   std::push_heap(heap_.begin(), heap_.end(), [](const Trial& s, const Trial& t) { return s.distance > t.distance; });
 }
 
-/** Offers `to` the way from `a` along the edge, and the one that crosses the edge ab of their triangle: in its plane the distances
- *  of a and b tell where the source would be, and the way is straight from there. A vertex may be offered a shorter way after it
- * was visited, because in an obtuse triangle b can be farther than `to`; it is visited again then. */
+/** Offers `to` two paths: along the edge from `a`, and one across the edge ab of their triangle. In the triangle's plane the
+ *  distances of a and b determine where the source would be, and the second path is straight from there. A vertex may be offered a
+ *  shorter path after it was visited, because in an obtuse triangle b can be farther than `to`; it is visited again then. */
 void SurfaceGeodesics::cross(std::uint32_t a, std::uint32_t b, std::uint32_t to, double* distances) {
   const double da = distances[a], db = distances[b];
   const Vector3 p = positions_.row(a), ab = positions_.row(b).transpose() - p, ac = positions_.row(to).transpose() - p;
@@ -64,10 +64,10 @@ void SurfaceGeodesics::cross(std::uint32_t a, std::uint32_t b, std::uint32_t to,
   if (!(db < std::numeric_limits<double>::infinity()) || edge2 == 0) return;
   const double edge = std::sqrt(edge2);
   const double x = ac.dot(ab) / edge, y = std::sqrt(std::max(length2 - x * x, 0.0));    // `to`, from a and along ab
-  const double sx = (edge2 + da * da - db * db) / (2 * edge), sy2 = da * da - sx * sx;  // the source, on the other side
+  const double sx = (edge2 + da * da - db * db) / (2 * edge), sy2 = da * da - sx * sx;  // the source, beyond ab
   if (!(sy2 >= 0)) return;
   const double sy = std::sqrt(sy2), rise = y + sy;
-  // Where the way crosses ab.
+  // Where the path crosses ab.
   const double at = rise > 0 ? (sx * y + x * sy) / rise : x;
   if (at < 0 || at > edge) return;
   offer(to, std::sqrt((x - sx) * (x - sx) + rise * rise), distances);

@@ -1,6 +1,6 @@
-// Lengths of shortest paths along a triangle mesh, approximately: Dijkstra's method whose wave also crosses triangles (Novotni &
-// Klein 2002). Any triangles will do, without area or obtuse ones too. Lengths are 0.5% too long on average; rejected: the heat
-// method along the surface, 1 to 3.5%.
+// Lengths of shortest paths along a triangle mesh, approximately: Dijkstra's method with a front that also crosses triangles
+// (Novotni & Klein 2002). Any triangles will do, even obtuse ones and ones without area. Lengths are 0.5% too long on average;
+// rejected: the heat method along the surface, 1 to 3.5%.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace handlebody {
 
-/** Reusable state for many sources on one mesh; it keeps what it needs. Indices must be in range. */
+/** Reusable state for many sources on one mesh, of which it keeps a copy. Indices must be in range. */
 class SurfaceGeodesics {
  public:
   SurfaceGeodesics(const ConstPoints& positions, const ConstTriangles& triangles);

@@ -81,8 +81,8 @@ TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& t
   build(0, count);
 }
 
-/** Splits the triangles at the median of their centroids along the longest axis, which bounds the depth by log₂ n, and so on down
- *  to the leaves. Equal centroids keep their order, so that every compiler builds one tree. */
+/** Splits the triangles at the median of their centroids along the longest axis, and so on down to the leaves; the depth is at most
+ *  log₂ n. Equal centroids keep their order, so that every compiler builds the same tree. */
 void TriangleTree::arrange(std::uint32_t* first, std::uint32_t* last) const {
   if (last - first <= std::ptrdiff_t{leaf_size}) return;
   Box box{triangles_[*first].centroid3(), triangles_[*first].centroid3()};

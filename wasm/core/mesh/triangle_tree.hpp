@@ -15,11 +15,11 @@ namespace handlebody {
 class TriangleTree {
  public:
   /** Copies what it needs. Indices must be in range; zero-area triangles are allowed. `winding`: whether it will be asked for
-   * winding numbers, whose expansions take more than half of the time. */
+   * winding numbers; their expansions take more than half of the construction time. */
   TriangleTree(const ConstPoints& positions, const ConstTriangles& triangles, bool winding = true);
 
-  /** Generalized winding number of `point`: about 1 inside a closed, outward-oriented surface, 0 outside, 1/2 on it; the sum over
-   *  parts. Within 0.01 of the exact value. */
+  /** Generalized winding number of `point`: about 1 inside a closed, outward-oriented surface, 0 outside, 1/2 on it; for several
+   *  parts, the sum. Within 0.01 of the exact value. */
   double winding_number(const Vector3& point) const;
 
   /** Distance from `point` to the nearest triangle, or `bound` if none is nearer. */
@@ -28,7 +28,7 @@ class TriangleTree {
  private:
   struct Triangle {
     Vector3 a, b, c;
-    bool flat;                                       // no area worth the name: it has a distance but no solid angle
+    bool flat;                                       // practically no area: it has a distance but no solid angle
     Vector3 centroid3() const { return a + b + c; }  // thrice the centroid
   };
 
@@ -63,7 +63,7 @@ class TriangleTree {
   std::vector<Triangle> triangles_;  // in the order of the leaves
   std::vector<Node> nodes_;
   std::vector<Box> boxes_;
-  std::vector<Expansion> expansions_;  // none without winding numbers
+  std::vector<Expansion> expansions_;  // empty where `winding` is false
   bool winding_;
 };
 

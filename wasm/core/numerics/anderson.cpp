@@ -6,8 +6,8 @@ namespace handlebody {
 
 namespace {
 
-/** Normal equations square the condition number: without this trace, differences that are nearly parallel, as they are close to
- *  the end, give weights of pure rounding. */
+/** Normal equations square the condition number. Without this small term on the diagonal, differences that are nearly parallel, as
+ *  they are close to convergence, give weights that are nothing but rounding errors. */
 constexpr double ridge = 1e-12;
 
 }  // namespace

@@ -11,19 +11,18 @@ class Anderson {
   /** For vectors of `size` numbers, with the differences of the last `window` steps. Allocates all that it needs. */
   Anderson(Index size, Index window);
 
-  /** Forgets the steps so far: the next one is plain. */
+  /** Forgets all steps so far: the next one is plain, x ← G(x). */
   void forget() { steps_ = 0; }
 
-  /** From x and g = G(x), the next x; may be written over either. Allocates nothing. The caller guards against steps that do harm.
-   */
+  /** From x and g = G(x), the next x; may be written over either. Allocates nothing. The caller must reject steps that do harm. */
   void accelerate(const double* x, const double* g, double* next);
 
  private:
   Index window_, steps_ = 0;
-  MatrixXd residuals_, images_;  // differences between successive ones, one a column, in turns
+  MatrixXd residuals_, images_;  // differences between successive ones, one per column, reused in turn
   Vector last_residual_, last_image_, residual_;
-  MatrixXd gram_;    // of the residuals' differences
-  MatrixXd system_;  // gram_, with a one on the diagonal where a step is yet to come
+  MatrixXd gram_;    // of the differences of the residuals
+  MatrixXd system_;  // gram_, with 1 on the diagonal of columns that are not filled yet
   Cholesky factor_;
   Vector weights_;
 };

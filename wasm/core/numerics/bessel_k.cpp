@@ -9,7 +9,7 @@ namespace {
 constexpr double largest_for_series = 2;
 constexpr double underflow = 746;  // e⁻ˣ is 0 from here on
 
-/** e^{−u²} at u = jδ by recurrence, in long double: the compiler's own arithmetic, nothing of it runs. */
+/** e^{−u²} at u = jδ by recurrence, in long double: evaluated by the compiler only, never at run time. */
 constexpr GaussianRule make_rule() {
   constexpr double step = 0.23;
   constexpr long double ratio = 0.899604550995231498554037L;       // e^{−2δ²}

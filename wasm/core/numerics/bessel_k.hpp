@@ -12,8 +12,8 @@ namespace handlebody {
 
 constexpr double euler_gamma = 0.57721566490153286061;
 
-/** ∫₀^∞ 2e^{−u²} f(u²) du ≈ Σ weight·f(square): to 1e-16 where f's nearest branch point is √(2x + u²)'s with x ≥ 1, or with complex
- * x, |x| ≥ 2 and |arg x| ≤ π/4. */
+/** ∫₀^∞ 2e^{−u²} f(u²) du ≈ Σ weight·f(square): to 1e-16 where f's nearest branch point is that of √(2x + u²) with x ≥ 1, or with
+ * complex x, |x| ≥ 2 and |arg x| ≤ π/4. */
 struct GaussianRule {
   static constexpr int nodes = 30;
   double square[nodes];
@@ -21,7 +21,7 @@ struct GaussianRule {
 };
 extern const GaussianRule gaussian_rule;
 
-/** To a relative 2e-15; infinite at x = 0, and 0 where e⁻ˣ underflows. x ≥ 0. */
+/** To a relative error of 2e-15; infinite at x = 0, and 0 where e⁻ˣ underflows. x ≥ 0. */
 double bessel_k0(double x);
 double bessel_k1(double x);
 

@@ -8,8 +8,8 @@
 
 namespace handlebody {
 
-/** With H = Σ σᵢ uᵢ vᵢᵀ, σ falling, R takes v₁ to u₁, v₂ to u₂ and v₁ × v₂ to u₁ × u₂: a rotation by construction, which sacrifices
- *  the third direction where H reflects. */
+/** With H = Σ σᵢ uᵢ vᵢᵀ, σ descending, R takes v₁ to u₁, v₂ to u₂ and v₁ × v₂ to u₁ × u₂. That is a rotation by construction: where
+ *  H reflects, it gives up the third direction. */
 
 Matrix3 closest_rotation(const Matrix3& covariance) {
   const double size = covariance.cwiseAbs().maxCoeff();
@@ -38,7 +38,7 @@ RigidMotion closest_rigid_motion(const ConstPoints& source, const ConstPoints& t
     covariance += to * from.transpose();
     spread += from.squaredNorm();
   }
-  // A trace of the identity decides what the data leave open and is lost in rounding where they do not.
+  // A small multiple of the identity decides what the data leave open; where they leave nothing open, it is lost in rounding.
   const double bias = 1e-9 * spread;
   motion.rotation = bias > 0 ? closest_rotation(covariance + bias * Matrix3::Identity()) : Matrix3::Identity();
   return motion;

@@ -1,7 +1,7 @@
 // The orthogonal Procrustes problem (paper 001, §4.5): the rotation nearest to a 3×3 covariance.
 //
-// By Jacobi rotations of our own (orthogonal_columns.hpp). Rejected: Eigen::JacobiSVD, which takes 1.7 × the time in wasm and 1.9 ×
-// natively, three to ten times a frame for every sphere. closest_rotation_test.cpp compares with it.
+// By our own Jacobi rotations (orthogonal_columns.hpp). Rejected: Eigen::JacobiSVD, which takes 1.7 × the time in wasm and 1.9 ×
+// natively; every sphere needs three to ten of these per frame. closest_rotation_test.cpp compares with it.
 #pragma once
 
 #include "core/numerics/types.hpp"

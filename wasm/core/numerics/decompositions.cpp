@@ -14,11 +14,11 @@ Cholesky::Cholesky(MatrixXd a) : factor_(std::make_unique<MatrixXd>(std::move(a)
   set_norm(*factor_);
   Eigen::Ref<MatrixXd> place(*factor_);
   llt_ = std::make_unique<Eigen::LLT<Eigen::Ref<MatrixXd>>>(place);
-  // Whatever is not finite below the diagonal reaches it, and what is above is not read.
+  // If a number below the diagonal is not finite, neither is the diagonal; numbers above it are not read.
   succeeded_ = llt_->info() == Eigen::Success && factor_->diagonal().allFinite();
 }
 
-/** From the lower triangle. */
+/** ‖A‖₁ of a symmetric matrix, from its lower triangle. */
 void Cholesky::set_norm(const MatrixXd& a) {
   sums_.setZero();
   for (Index j = 0; j < a.cols(); ++j) {
@@ -51,7 +51,7 @@ Lu::Lu(MatrixXd a) : norm_(one_norm(a)), factor_(std::make_unique<MatrixXd>(std:
 }
 
 double Lu::rcond() const {
-  // The estimator stumbles over what a zero pivot makes of its solutions.
+  // A zero pivot makes solutions that are not finite, which the estimator cannot handle.
   return (factor_->diagonal().array() != 0).all() ? 1 / (norm_ * inverse_norm_estimate(*this)) : 0;
 }
 
@@ -74,7 +74,7 @@ void Lu::apply_transposed(Vector& x) const {
 
 namespace {
 
-/** Of R. */
+/** The inverse of R. */
 class TriangleInverse final : public Inverse {
  public:
   explicit TriangleInverse(const Qr& qr) : qr_(qr) {}
@@ -123,7 +123,7 @@ void Qr::apply(Eigen::Ref<MatrixXd> b) const {
 }
 
 void Qr::conjugate(MatrixXd& s) const {
-  // One reflection H = I − τ v vᵀ after the other, from both sides as in tridiagonalization: H S H = S − v wᵀ − w vᵀ with
+  // Applies one reflection H = I − τ v vᵀ after the other from both sides, as in tridiagonalization: H S H = S − v wᵀ − w vᵀ with
   // w = τ S v − ½ τ² (vᵀS v) v.
   Vector v(rows()), w(rows());
   for (Index k = 0; k < columns(); ++k) {
@@ -175,7 +175,7 @@ double one_norm(const Eigen::Ref<const MatrixXd>& a) {
 
 namespace {
 
-/** What Eigen's estimator asks of a decomposition. */
+/** The interface that Eigen's estimator expects of a decomposition. */
 struct Solver {
   using MatrixType = MatrixXd;
   using Scalar = double;

@@ -1,5 +1,5 @@
-// Eigen's dense decompositions, each instantiated once: every file that named one would compile its own copy. They factor their
-// argument where it lies, so that a system of 11,000 unknowns is not held twice.
+// Eigen's dense decompositions, each instantiated once, since every file that names one compiles its own copy. They factor their
+// argument in place, so that a system of 11,000 unknowns is not held twice.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -10,22 +10,22 @@
 
 namespace handlebody {
 
-/** The inverse of a matrix, known by what it does to a vector. */
+/** The inverse of a matrix, known only by its products with vectors. */
 class Inverse {
  public:
   virtual Index rows() const = 0;
   virtual void apply(Vector& x) const = 0;                      // x ← A⁻¹ x
-  virtual void apply_transposed(Vector& x) const { apply(x); }  // x ← A⁻ᵀ x, the same of a symmetric matrix
+  virtual void apply_transposed(Vector& x) const { apply(x); }  // x ← A⁻ᵀ x, the same for a symmetric matrix
 
  protected:
   ~Inverse() = default;
 };
 
-/** ‖A⁻¹‖₁ or a little less, rarely by more than a factor of three, from a handful of products (Hager 1984; Higham, ACM TOMS 14,
- *  1988). Eigen's estimator, which its decompositions' rcond() would compile once for each of them: 4 kB gzipped in all. */
+/** An estimate of ‖A⁻¹‖₁ from a handful of products: never above it, rarely below a third of it (Hager 1984; Higham, ACM TOMS 14,
+ *  1988). This is Eigen's estimator; the rcond() of each of its decompositions would compile it once more: 4 kB gzipped in all. */
 double inverse_norm_estimate(const Inverse& inverse);
 
-/** ‖A‖₁, the largest sum of the absolute values of a column; 0 of a matrix without any, NaN where any number is. */
+/** ‖A‖₁, the largest sum of the absolute values in a column; 0 for a matrix without columns, NaN where any number is. */
 double one_norm(const Eigen::Ref<const MatrixXd>& a);
 
 /** A = L Lᵀ of a symmetric positive definite matrix (n×n), of which the lower triangle is read. Eigen::LLT. */
@@ -64,8 +64,8 @@ class Cholesky final : private Inverse {
   bool succeeded_ = false;
 };
 
-/** P A = L U of a square matrix (n×n) with partial pivoting. A singular matrix passes, and gives numbers that are not finite later
- * on. Eigen::PartialPivLU. */
+/** P A = L U of a square matrix (n×n) with partial pivoting. A singular matrix is accepted, but its solutions are not finite.
+ * Eigen::PartialPivLU. */
 class Lu final : private Inverse {
  public:
   explicit Lu(MatrixXd a);
@@ -75,7 +75,7 @@ class Lu final : private Inverse {
   /** ‖A‖₁ */
   double norm() const { return norm_; }
 
-  /** As of Cholesky. */
+  /** As for Cholesky. */
   double rcond() const;
 
   /** A⁻¹ B (n×m). */
@@ -116,10 +116,10 @@ class Qr {
   void solve_r(Eigen::Ref<MatrixXd> b) const;
   void solve_r_transposed(Eigen::Ref<MatrixXd> b) const;
 
-  /** argmin ‖A X − B‖ (n×k) for B (m×k). Not finite where columns of A depend on each other. */
+  /** argmin ‖A X − B‖ (n×k) for B (m×k). Not finite where columns of A are linearly dependent. */
   MatrixXd solve(MatrixXd b) const;
 
-  /** Estimated reciprocal of R's 1-norm condition number, as of Cholesky. */
+  /** Estimated reciprocal of R's 1-norm condition number, as for Cholesky. */
   double rcond() const;
 
  private:
@@ -127,8 +127,8 @@ class Qr {
   std::unique_ptr<Factors> factors_;
 };
 
-/** A P = Q R with column pivoting, which tells the span of A's columns (m×n): an orthonormal basis of it stands in front of Q's
- * min(m, n) columns, as many as there are `sizes` |Rₖₖ| above a tolerance, and these fall. Eigen::ColPivHouseholderQR. */
+/** A P = Q R with column pivoting, for the span of A's columns (m×n). `sizes` are the |Rₖₖ|, descending; where r of them are above
+ * a tolerance, the first r of Q's min(m, n) columns are an orthonormal basis of the span. Eigen::ColPivHouseholderQR. */
 struct ColumnSpan {
   MatrixXd basis;
   Vector sizes;

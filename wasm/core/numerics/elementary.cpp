@@ -8,17 +8,17 @@
 namespace handlebody {
 namespace {
 
-// Four numbers at a time in GCC's and Clang's vectors, which become whatever the machine has. Left to a plain loop, clang 14 makes
-// scalar code of the integer parts for wasm, no faster than the C library; so, two million thin plate kernels take three fifths of
-// the time.
+// Four numbers at a time in the vector types of GCC and Clang, which become the machine's own vectors. From a plain loop clang 14
+// makes scalar code of the integer parts for wasm, no faster than the C library; with these types two million thin plate kernels
+// take three fifths of the time.
 using Reals = double __attribute__((vector_size(32)));
 using Words = std::uint64_t __attribute__((vector_size(32)));
 using Integers = std::int64_t __attribute__((vector_size(32)));
 constexpr Index lanes = 4;
 
 constexpr double ln2_high = 0x1.62e42feep-1,
-                 ln2_low = 0x1.a39ef35793c76p-33;     // together ln 2; the first times any exponent is exact
-constexpr double integer_shift = 6755399441055744.0;  // 1.5 · 2⁵²: integers are its lowest bits
+                 ln2_low = 0x1.a39ef35793c76p-33;     // together ln 2; the product of the first and any exponent is exact
+constexpr double integer_shift = 6755399441055744.0;  // 1.5 · 2⁵²: adding it puts an integer into the lowest bits
 constexpr std::uint64_t integer_shift_bits = 0x4338000000000000u, root_half_bits = 0x3fe6a09e667f3bcdu;
 
 void logarithm(Reals& x) {
@@ -28,7 +28,7 @@ void logarithm(Reals& x) {
   const Reals m = (Reals)(bits - (k << 52));
   const Reals exponent = (Reals)(k + integer_shift_bits) - integer_shift;
   const Reals s = (m - 1) / (m + 1), z = s * s;
-  const Reals z2 = z * z;  // even and odd powers apart, which need not wait for each other
+  const Reals z2 = z * z;  // even and odd powers in separate sums, so that neither waits for the other
   Reals even = z2 * (2.0 / 23) + 2.0 / 19, odd = z2 * (2.0 / 21) + 2.0 / 17;
   even = even * z2 + 2.0 / 15;
   odd = odd * z2 + 2.0 / 13;
@@ -47,7 +47,7 @@ void decaying_exponential(Reals& x) {
   const Reals t = -(Reals)((Words)x & in_range);
   const Reals shifted = t * 1.4426950408889634 + integer_shift, k = shifted - integer_shift;
   const Reals r = (t - k * ln2_high) - k * ln2_low;
-  const Reals z = r * r;  // even and odd powers apart, which need not wait for each other
+  const Reals z = r * r;  // even and odd powers in separate sums, so that neither waits for the other
   Reals even = z * (1.0 / 479001600) + 1.0 / 3628800, odd = z * (1.0 / 6227020800) + 1.0 / 39916800;
   even = even * z + 1.0 / 40320;
   odd = odd * z + 1.0 / 362880;

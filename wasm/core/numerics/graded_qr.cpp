@@ -9,7 +9,7 @@ namespace handlebody {
 namespace {
 
 constexpr double rank_tolerance = 1e-10;
-constexpr double least = 1e-300;  // whose inverse is a number
+constexpr double least = 1e-300;  // its inverse is finite
 
 }  // namespace
 
@@ -51,12 +51,12 @@ bool GradedQr::extend(Index end) {
     swap_columns(column, k);
     if (!independent(k)) return false;
 
-    // Squares of quotients, which neither overflow nor vanish, and a reflector with a leading 1.
+    // The norm from squares of quotients, which neither overflow nor vanish; the reflector has a leading 1.
     double* x = &a_(0, k);
     const double one_over_largest = 1 / largest;
     double squared = 0;
     for (Index i = k; i < rows_; ++i) squared += x[i] * one_over_largest * (x[i] * one_over_largest);
-    const double norm = largest * std::sqrt(squared), image = x[k] > 0 ? -norm : norm;  // away from x: no cancellation
+    const double norm = largest * std::sqrt(squared), image = x[k] > 0 ? -norm : norm;  // of the opposite sign: no cancellation
     const double one_over_first = 1 / (x[k] - image);
     for (Index i = k + 1; i < rows_; ++i) x[i] *= one_over_first;
     tau_[k] = 1 - x[k] / image;
@@ -88,7 +88,7 @@ void GradedQr::reflect(Index k, double* x) const {
   for (Index i = k + 1; i < rows_; ++i) x[i] -= along * v[i];
 }
 
-/** Of reflectors too: as if the rows had been in this order all along. */
+/** Swaps the rows of reflectors too, as if they had been in this order from the start. */
 void GradedQr::swap_rows(Index i, Index k) {
   if (i == k) return;
   for (Index j = 0; j < a_.cols(); ++j) std::swap(a_(i, j), a_(k, j));

@@ -21,7 +21,7 @@ Hyperbolic hyperbolic(double x_squared) {
   if (x_squared > 0) {
     const double grown = std::exp(x), decayed = 1 / grown;
     out = {(grown + decayed) / 2, (grown - decayed) / (2 * x), 0};
-  } else {  // x = n π/2 + r, π/2 in two parts of which the first times n is exact
+  } else {  // x = n π/2 + r; π/2 in two parts, the first of which times n is exact
     const double n = std::floor(x / 1.5707963267948966 + 0.5);
     const double r = (x - n * 1.57079632673412561417) - n * 6.07710050650619224932e-11;
     const Hyperbolic rest = hyperbolic(-r * r);

@@ -1,6 +1,6 @@
-// cosh and sinh beyond their library forms: as entire functions of x², so that a negative x² means cos and sin, and without the
-// cancellation of their differences at small x. What is made of exp and log alone costs nothing more: cos and sin of the C library
-// are 3 kB of wasm, most of it for arguments that do not occur.
+// cosh and sinh beyond the library's functions: as entire functions of x², so that a negative x² means cos and sin, and without
+// cancellation in their differences at small x. They use only exp and log, which adds no code: the C library's cos and sin are 3 kB
+// of wasm, most of it for arguments that do not occur.
 #pragma once
 
 namespace handlebody {
@@ -11,7 +11,7 @@ struct Hyperbolic {
   double rest;   // (cosh x − sinh(x)/x)/x², 1/3 at x = 0
 };
 
-/** Each to a few units in the last place, or of what it oscillates between. Overflows at x² = 500000, as cosh does; x² ≥ −1e12. */
+/** Each to a few units in the last place, of the amplitude if it oscillates. Overflows at x² = 500000, as cosh does; x² ≥ −1e12. */
 Hyperbolic hyperbolic(double x_squared);
 
 /** eˣ − 1 and ln(1 + x)/x without cancellation at small x (W. Kahan): the errors of u = eˣ and u = 1 + x cancel. */

@@ -1,5 +1,5 @@
-// Lists of indices, into vertices, points or rows, and one sort for all of them whatever their order: instantiated anew for every
-// comparison, std::sort and std::nth_element are 2 kB of code each.
+// Lists of indices, into vertices, points or rows, and one sort for every order: std::sort and std::nth_element take 2 kB of code
+// each for every comparison that instantiates them.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ using Indices = std::vector<std::uint32_t>;
 /** Stands where there is no index: a vertex that nothing holds, a voxel that is not inside. */
 inline constexpr std::uint32_t no_index = 0xffffffff;
 
-/** Whether there is a thing of that number among `count`. Compared without a sign: an Index has 32 bits on wasm32, where a number
- * from 2³¹ on would turn negative and pass for small. */
+/** Whether `number` < `count`. Compared without a sign: an Index has 32 bits on wasm32, where a number from 2³¹ on would turn
+ * negative and pass for small. */
 constexpr bool in_range(std::uint32_t number, std::ptrdiff_t count) {
   return number < static_cast<std::size_t>(count);
 }
 
-/** Refers to a strict order "u before v" of indices; must not outlive it. */
+/** A reference to a strict order "u before v" of indices, which must outlive it. */
 class Order {
  public:
   template <typename Before>

@@ -1,4 +1,4 @@
-// Least ½ uᵀ Q u − fᵀ u where some unknowns are fixed, factored once and solved for many f and fixed values (libigl's
+// Minimizes ½ uᵀ Q u − fᵀ u where some unknowns are fixed: factored once, solved for many f and fixed values (libigl's
 // min_quad_with_fixed). With u_f the free unknowns and u_p the fixed ones,
 //
 //   Q_ff u_f = f_f − Q_fp u_p.
@@ -17,14 +17,14 @@ struct FreeRows {
   SparseMatrix to_fixed;    // Q_fp, m×n: columns keep their indices, those of free unknowns are empty
 };
 
-/** `free` lists m of Q's n unknowns in ascending order. Q_ff as Sᵀ Q S, with the columns of S those of the identity, takes 5 times
- * as long, a fifth of what factoring it takes (the bi-Laplacian of 2,300 vertices), which counts where active sets change. */
+/** `free` lists m of Q's n unknowns in ascending order. Forming Q_ff as Sᵀ Q S, S made of columns of the identity, takes 5 times as
+ * long: a fifth of the time to factor it (the bi-Laplacian of 2,300 vertices), which counts where active sets change. */
 FreeRows free_rows(const SparseMatrix& q, const Indices& free);
 
 class MinQuadWithFixed {
  public:
   struct Options {
-    Index columns = 1;  // of u, for which solve() is to find its memory ready
+    Index columns = 1;  // of u, for which memory is allocated in advance
     Indices order;      // of elimination: positions in `free`, all of them; minimum degree where it is empty
   };
 
@@ -37,19 +37,19 @@ class MinQuadWithFixed {
 
   const Indices& free() const { return free_; }
 
-  /** Gives the free rows of u (n×k) their values; the fixed ones are read. Under f (n×k), whose fixed rows do not matter, or none.
-   * Returns the largest change of a number of u. Allocates nothing where k is what it was before. */
+  /** Computes the free rows of u (n×k) from its fixed ones, for f (n×k), whose fixed rows do not matter, or for f = 0. Returns the
+   * largest change of a number of u. Allocates nothing where k is what it was before. */
   double solve(Eigen::Ref<Matrix> u);
   double solve(const Eigen::Ref<const Matrix>& f, Eigen::Ref<Matrix> u);
 
-  /** Multiplications that factoring takes, and that solving takes a column. */
+  /** Multiplications for factoring, and for solving one column. */
   double factor_cost() const { return cholesky_->factor_cost(); }
   double solve_cost() const { return cholesky_->solve_cost(); }
 
  private:
   MinQuadWithFixed() = default;
 
-  /** From f_f in `right_` on. */
+  /** The rest of solve(), once `right_` holds f_f. */
   double finish(Eigen::Ref<Matrix>& u);
 
   Indices free_;

@@ -105,7 +105,7 @@ double SparseCholesky::factor_part(const SparseMatrix& a, double multiplications
       row_ = k;
       return std::min(2 * done_ / factor_cost_, 0.999);
     }
-    // The places of row k, each before those that it changes: paths of the tree, the last found first.
+    // The entries of row k, each before those that it changes: paths of the elimination tree, the path found last comes first.
     std::uint32_t top = n;
     double diagonal = 0;
     seen[k] = k;
@@ -126,7 +126,7 @@ double SparseCholesky::factor_part(const SparseMatrix& a, double multiplications
     }
     double pivot = diagonal;
     while (top < n) {
-      // Columns that follow each other and have one pattern are taken together: a fourth of the indices to read, and of y to write.
+      // Successive columns with the same pattern are processed together: a fourth of the indices to read, and of y to write.
       const std::uint32_t first = path[top];
       int width = 1;
       while (width < most_merged && top + width < n && path[top + width] == first + width && merges_[first + width]) ++width;

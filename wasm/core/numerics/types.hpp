@@ -1,4 +1,4 @@
-// The matrix types that the core shares. Points and coefficients are row-major: one row a point, as in the typed arrays outside.
+// The matrix types that the core shares. Points and coefficients are row-major: one row per point, as in the typed arrays outside.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +15,12 @@ using MatrixXd = Eigen::MatrixXd;  // column-major, as decompositions want it
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/** n×3 positions, one row a point. */
+/** n×3 positions, one row per point. */
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using PointsF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/** Three columns x, y, z, each contiguous: what a matrix times a vector is taken for, one after the other. With three columns
- * Eigen's blocked product would pack the matrix first, at twice the time, and allocate. */
+/** Three columns x, y, z, each contiguous, for products of a matrix with one column after the other. With all three at once Eigen's
+ * blocked product would pack the matrix first, which takes twice the time and allocates. */
 using Columns3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /** m×3 vertex indices, counter-clockwise seen from outside. */

@@ -53,7 +53,7 @@ Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
   return spacing;
 }
 
-/** What scattered interpolation calls points are examples here. */
+/** Errors of scattered interpolation speak of points; here these are examples. */
 Error as_examples(const Error& error) {
   const auto with = [&](hb_status code) {
     return Error(code, {error.message.c_str()}, {error.remedy.c_str()},
@@ -70,8 +70,8 @@ Error as_examples(const Error& error) {
   }
 }
 
-/** Equations that are singular in double precision still give some answer, so the promise itself is tested: 1 at the own place, 0
- * at the others. */
+/** Equations that are singular in double precision still give some answer, so the cardinal property itself is tested: weight 1 at
+ * an example's own place, 0 at the others'. */
 Result<Done> check_cardinal(Rbf& rbf, const Eigen::Ref<const Matrix>& places) {
   Vector weights(places.rows()), place(places.cols());
   for (Index i = 0; i < places.rows(); ++i) {
@@ -114,7 +114,7 @@ Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, cons
   rbf.basis.degree = options.degree;
   rbf.basis.normalized = normalized;
   if (count == 1) {
-    // The constant 1 is the only answer, and the only one that every kernel and degree would leave undetermined or refuse.
+    // The only answer is the constant 1, which some kernels and degrees would leave undetermined or refuse.
     rbf.basis.kernel = {KernelKind::multiquadric, 1};
     rbf.basis.degree = 0;
     rbf.basis.normalized = false;

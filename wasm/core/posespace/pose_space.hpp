@@ -32,10 +32,10 @@ constexpr unsigned pose_space_method_count = 2;
  *     normalized inverse quadratic, own widths     −0.19  1.10    −0.22  1.19    −0.03   0.54      1.18
  *     normalized Gaussian, own widths ¾            −0.23  1.28    −0.23  1.40                               steps
  *
- * The cardinal default is smooth (analytic), follows direction beyond the hull instead of fading to a mean, and stays bounded
- * there since Σc = 0 cancels the kernel's growth. A common width serves badly: what suits isolated examples makes close ones
- * fight (rows 3 and 4). On random sets of 5 to 29 places it kept within −0.42 … 1.21 inside the hull; in one to six dimensions with
- * clusters down to 1e-4 within −0.95 … 1.34. Normalized is gentler (−0.33 … 1.21 there) but leans towards isolated examples. */
+ * The cardinal default is smooth (analytic), follows direction beyond the hull instead of fading to a mean, and stays bounded there
+ * as Σc = 0 cancels the kernel's growth. A common width does badly: what suits isolated examples gives close ones large weights
+ * (rows 3 and 4). On random sets of 5 to 29 places it stays within −0.42 … 1.21 inside the hull; in one to six dimensions with
+ * clusters down to 1e-4 within −0.95 … 1.34. Normalized is closer to [0, 1] (−0.33 … 1.21 there) but favors isolated examples. */
 struct PoseSpaceOptions {
   PoseSpaceMethod method = PoseSpaceMethod::cardinal;
   KernelKind kernel = KernelKind::multiquadric;

@@ -56,7 +56,7 @@ double AsRigidAsPossible::fit_rotations() {
       for (Index e = 0; e < 4; ++e) g[e] += u[2 * corners[k] + e / 2] * normals[2 * k + e % 2];
     }
     const double j[4] = {1 + g[0] / area, g[1] / area, g[2] / area, 1 + g[3] / area};
-    // The closest rotation turns by the angle of (j₀₀ + j₁₁, j₁₀ − j₀₁); any does where that vanishes.
+    // The closest rotation turns by the angle of (j₀₀ + j₁₁, j₁₀ − j₀₁); where that vanishes, any rotation is closest.
     const double x = j[0] + j[3], y = j[2] - j[1], length = std::sqrt(x * x + y * y);
     const double cosine = length > 0 ? x / length : 1, sine = length > 0 ? y / length : 0;
     const double r[4] = {cosine, -sine, sine, cosine};

@@ -28,7 +28,7 @@ void BoundedNewton::guess(const Matrix& feasible) {
   find_multipliers();
 }
 
-/** λ from the forces where no bound holds; and the rows in which a choice is left. */
+/** λ from the forces where no bound holds; and the rows in which more than one weight is free. */
 void BoundedNewton::find_multipliers() {
   const Matrix& forces = problem_->forces();
   const Index h = forces.cols();
@@ -55,7 +55,7 @@ bool BoundedNewton::factor(Index handle) {
   }
   auto& part = parts_[handle];
   if (part && part->free() == rows) return true;
-  Indices order;  // these rows in that of all
+  Indices order;  // these rows, in the order of all rows
   order.reserve(rows.size());
   for (const std::uint32_t i : order_)
     if (position[i] != no_index) order.push_back(position[i]);
@@ -109,8 +109,8 @@ Index BoundedNewton::step(double tolerance) {
   return changed;
 }
 
-/** Holds at 0 what fell below, and lets go of what is pulled up: both by so little at most, that the energy does not tell. Returns
- * how many changed. Every row keeps its greatest weight. */
+/** Fixes at 0 the weights that fell below it, and releases those that the forces pull up, except for differences too small to show
+ * in the energy. Returns how many changed. Every row keeps its greatest weight. */
 Index BoundedNewton::update_active(double pull) {
   const Matrix& forces = problem_->forces();
   const Index m = x_.rows(), h = x_.cols();

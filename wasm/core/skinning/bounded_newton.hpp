@@ -1,13 +1,13 @@
 // Bounded weights by Newton's method with primal–dual active sets (Hintermüller, Ito & Kunisch 2002): exact, mostly in 3 to 12
 // steps, from a guess of the bounds that hold.
 //
-// At the minimum, forces are Yᵢⱼ = μᵢⱼ − λᵢ: λ for the sum of a row, μ ≥ 0 for a bound that holds, 0 for others. A step finds the
-// least energy under the bounds that are thought to hold, as equations. Given λ, handles do not know of each other:
+// At the minimum, forces are Yᵢⱼ = μᵢⱼ − λᵢ: λ for the sum of a row, μ ≥ 0 for a bound that holds, 0 for others. A step minimizes
+// the energy with the bounds that are thought to hold as equations. Given λ, the handles' equations are independent of each other:
 //
 //   Bⱼ xⱼ = −Fⱼ − λ   on the vertices where handle j's weight is neither 0 nor 1, for which it has a factorization of its own.
 //
-// Σⱼ xⱼ = 1 then is an equation Σⱼ Bⱼ⁻¹ λ = …, which conjugate gradients solve in 3 to 12 rounds when B itself, which is what a sum
-// of inverses of its parts is nearly the inverse of, preconditions them.
+// Σⱼ xⱼ = 1 then is an equation Σⱼ Bⱼ⁻¹ λ = …, which conjugate gradients solve in 3 to 12 rounds with B as preconditioner: a sum of
+// inverses of B's parts is nearly the inverse of B.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ namespace handlebody {
 
 class BoundedNewton {
  public:
-  /** `problem` must outlive it, and was evaluated; a bound holds where `guess` (feasible) is 0. `order`: of elimination, for B. */
+  /** `problem` must outlive it and be evaluated; a bound holds where `guess` (feasible) is 0. `order`: of elimination, for B. */
   BoundedNewton(BoundedProblem& problem, const Matrix& guess, Indices order);
 
   /** Factors B among the vertices where this handle's weight is neither 0 nor 1, unless they are the same as before. To be called
@@ -43,7 +43,7 @@ class BoundedNewton {
   Indices order_;
   Vector diagonal_;                                       // of B
   std::vector<unsigned char> active_;                     // m × handles: xᵢⱼ is held at 0
-  std::vector<unsigned char> shared_;                     // two handles or more are not
+  std::vector<unsigned char> shared_;                     // rows in which two weights or more are not
   std::vector<std::unique_ptr<MinQuadWithFixed>> parts_;  // Bⱼ
   Matrix x_, change_;
   Vector multiplier_;  // λ

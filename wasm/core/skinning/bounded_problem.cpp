@@ -10,7 +10,7 @@
 namespace handlebody {
 
 void project_to_simplex(double* w, Index h) {
-  // max(w − θ, 0), where what lies below θ has no part in it.
+  // max(w − θ, 0), where θ depends only on the numbers above it.
   double theta = -1e300, sum = 0;
   for (Index count = 0, before = -1; count != before;) {
     before = count;
@@ -60,8 +60,7 @@ double BoundedProblem::value(const Matrix& x) {
   return held_energy_ + x.cwiseProduct(image_ / 2 + load_).sum();
 }
 
-/** Below: with the forces Y = B x + F, x is the least point of E minus ⟨Y, ·⟩, and ⟨Y, ·⟩ is least on the corners of each row's
- * simplex. */
+/** The lower bound: with the forces Y = B x + F, x minimizes E − ⟨Y, ·⟩, and ⟨Y, ·⟩ is least on a corner of each row's simplex. */
 void BoundedProblem::evaluate(const Matrix& x) {
   forces_.noalias() = energy_ * x;
   double below = held_energy_ - x.cwiseProduct(forces_).sum() / 2;

@@ -1,8 +1,8 @@
 // Bounded weights as a convex problem in the weights x of the m free vertices, m × handles:
 //
-//   least E(x) = E₀ + ⟨F, x⟩ + ½ ⟨x, B x⟩   where   xᵢⱼ ≥ 0 and Σⱼ xᵢⱼ = 1,
+//   minimize E(x) = E₀ + ⟨F, x⟩ + ½ ⟨x, B x⟩   where   xᵢⱼ ≥ 0 and Σⱼ xᵢⱼ = 1,
 //
-// with B the energy's matrix among free vertices, F what the held ones add to the forces B x, and E₀ their own energy.
+// with B the energy's matrix among free vertices, F the part of the forces that held vertices add to B x, and E₀ their own energy.
 #pragma once
 
 #include "core/numerics/sparse.hpp"
@@ -28,14 +28,14 @@ class BoundedProblem {
   /** E(x). */
   double value(const Matrix& x);
 
-  /** Any x: makes it feasible and keeps that if it is the best so far, bounds the least energy from below, and computes forces().
+  /** For any x: makes it feasible and keeps that if it is the best so far, bounds the least energy from below, and sets forces().
    */
   void evaluate(const Matrix& x);
 
   /** B x + F of the last x. */
   const Matrix& forces() const { return forces_; }
 
-  /** Energy of the best; the least one is between that and `gap` less. */
+  /** Energy of the best; the least energy is lower by at most `gap`. */
   double best_energy() const { return best_energy_; }
   double gap() const { return gap_; }
 

@@ -1,9 +1,10 @@
-// Bounded weights by sweeps of the alternating direction method (Boyd et al. 2011): soon near the least energy, and never there.
+// Bounded weights by sweeps of the alternating direction method (Boyd et al. 2011): soon near the least energy, but never at it.
 // With z the projection of s to the rows with z ≥ 0 and Σ z = 1, a sweep is
 //
-//   x = argmin E(x) + ½ ‖x − (2z − s)‖²   in the metric ρD,     s ← s + α (x − z):
+//   x = argmin E(x) + ½ ‖x − (2z − s)‖²   in the metric ρD,     s ← s + α (x − z).
 //
-// Douglas–Rachford's form, over-relaxed by α = 1.6. One factorization of B + ρD, which all handles share, is solved each time.
+// This is Douglas–Rachford's form, over-relaxed by α = 1.6. One factorization of B + ρD, shared by all handles, is solved each
+// time.
 #pragma once
 
 #include <memory>

@@ -10,12 +10,12 @@ namespace handlebody {
 // sets:
 //   sweeps, then Newton's method, λ by conjugate gradients   140 ms   taken: 40 sweeps of 0.8 ms, 9 steps of 12 ms; exact
 //   the same, all handles' equations in one matrix           75 ms a step and more (SuperLU): 700,000 entries in its factor
-//   Newton's method from the clamped unbounded weights       16 to 25 steps: contact moves by about a ring of vertices a step
+//   Newton's method from the clamped unbounded weights       16 to 25 steps: bounds spread by about a ring of vertices a step
 //   sweeps alone                                             energy 0.1% too high after 200
 //   sweeps with Anderson's acceleration                      0.01% after 80, 1 ms each; but of two handles 0.1% after 200
 //   penalties that grow by 3 or 10, by Newton's method       left 0.1% to 2% (on 600 vertices)
 //   D = M for the sweeps                                     twice as many on a graded mesh
-// Not tried: interior points, which factor (handles − 1)³ times the work of one handle in each of 13 to 19 steps (Clarabel's
+// Not tried: interior-point methods, which factor (handles − 1)³ times the work of one handle in each of 13 to 19 steps (Clarabel's
 // count).
 namespace {
 
@@ -34,7 +34,7 @@ Result<std::unique_ptr<BoundedWeights>> BoundedWeights::create(const SparseMatri
   self.evaluated();
   if (self.done()) return made;
 
-  // Every handle's own equations are some of the rows of all, and in a good order too.
+  // Every handle's own equations are some of all rows, for which this order is good too.
   self.order_ = minimum_degree_order(self.problem_->energy());
   auto sweeps = BoundedSweeps::create(*self.problem_, mass, self.order_);
   if (!sweeps) return sweeps.error();

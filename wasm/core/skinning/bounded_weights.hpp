@@ -1,8 +1,8 @@
 // Bounded biharmonic weights (Jacobson et al. 2011) of all handles as one convex problem, in which their sum is a constraint:
 //
-//   least ½ Σⱼ wⱼᵀ B wⱼ   where   wᵢⱼ ≥ 0 and Σⱼ wᵢⱼ = 1 at every vertex i,   wᵢⱼ = 1 at the vertices i that handle j holds.
+//   minimize ½ Σⱼ wⱼᵀ B wⱼ   where   wᵢⱼ ≥ 0 and Σⱼ wᵢⱼ = 1 at every vertex i,   wᵢⱼ = 1 at the vertices i that handle j holds.
 //
-// The paper bounds each handle's weights alone and divides rows by their sums afterwards, which costs smoothness: on the
+// The paper bounds each handle's weights separately and divides rows by their sums afterwards, which costs smoothness: on the
 // gingerbread man of 2,250 vertices and 6 handles that energy lies 6% above the least.
 #pragma once
 
@@ -24,14 +24,14 @@ struct BoundedWeightsReport {
   double gap = 0;     // the least energy is between energy − gap and energy
 };
 
-/** Stepped, so that it can show progress and be left at any time: weights() are feasible from the start and only get better. Sweeps
- * (bounded_sweeps.hpp) find out roughly which bounds hold; then Newton's method (bounded_newton.hpp) finds the minimum itself. A
- * duality gap tells how near it is. */
+/** Works in steps, so that it can show progress and be stopped at any time: weights() are feasible from the start and only get
+ * better. Sweeps (bounded_sweeps.hpp) find out roughly which bounds hold; then Newton's method (bounded_newton.hpp) finds the
+ * minimum itself. A duality gap tells how near it is. */
 class BoundedWeights {
  public:
   /** `energy`: B, n×n, symmetric, positive semidefinite, rows summing to 0; `mass`: of the n vertices; `start`: n × handles, the
    * unbounded weights of the same handles. Each connected part must have a held vertex. SYSTEM_SINGULAR where B is not positive
-   * definite for the others, OUT_OF_MEMORY. */
+   * definite for the free vertices, OUT_OF_MEMORY. */
   static Result<std::unique_ptr<BoundedWeights>> create(const SparseMatrix& energy, const Vector& mass, const HeldVertices& held,
                                                         const Matrix& start, const BoundedWeightsOptions& options = {});
 
@@ -42,7 +42,7 @@ class BoundedWeights {
   /** n × handles: the best weights so far, ≥ 0, e_j where handle j holds; rows sum to 1 but for rounding. */
   Matrix weights() const { return problem_->weights(); }
 
-  /** Where the gap stayed above the tolerance, the steps were used up or double precision was. */
+  /** Where the gap stayed above the tolerance, all steps were used or double precision did not suffice. */
   const BoundedWeightsReport& report() const { return report_; }
 
  private:
@@ -61,7 +61,7 @@ class BoundedWeights {
   double progress_ = 0;
   int sweep_ = 0, most_sweeps_ = 0, newton_step_ = 0;
   Index handle_ = 0;
-  bool newton_fits_ = false;  // in memory, with a factor a handle
+  bool newton_fits_ = false;  // in memory, with one factor per handle
 
   std::unique_ptr<BoundedProblem> problem_;
   Indices order_;  // of elimination

@@ -8,8 +8,8 @@
 namespace handlebody {
 namespace {
 
-/** w, x, y, z of a quaternion, or the real and the dual complex number of a motion in the plane; in memory, four floats at any
- * place. */
+/** w, x, y, z of a quaternion, or the real and the dual complex number of a motion in the plane; in memory, four floats without
+ * alignment. */
 using Quad = float __attribute__((vector_size(16), aligned(4)));
 
 class DualQuaternion final : public Skin {
@@ -27,9 +27,9 @@ class DualQuaternion final : public Skin {
 
   double center_[3] = {};
   std::vector<double> regions_;        // h×3: where handles act, from the center
-  std::vector<float> rows_;            // of a vertex: d numbers of vᵢ, h of wᵢⱼ, the largest ±1
+  std::vector<float> rows_;            // per vertex: d numbers of vᵢ, h of wᵢⱼ, the largest ±1
   std::vector<std::uint32_t> pivots_;  // n
-  std::vector<float> motions_;         // real and dual quaternion, or in the plane both in one, a handle
+  std::vector<float> motions_;         // per handle: real and dual quaternion, or in the plane both in one
   std::vector<float> sides_;           // h×h: whether two motions' real parts point to the same side, ±1
 };
 
@@ -118,7 +118,7 @@ void DualQuaternion::move_all(float* out) const {
       return real[0] * real[0] + real[1] * real[1] + (d == 3 ? real[2] * real[2] + real[3] * real[3] : 0);
     };
     float length = square();
-    if (!(length > 1e-10F)) {  // canceled: the pivot's own
+    if (!(length > 1e-10F)) {  // the blend canceled: take the pivot's own motion
       real = motion(pivots_[i])[0];
       dual = motion(pivots_[i])[d - 2];
       length = square();

@@ -6,7 +6,7 @@
 // |wᵢⱼ| (antipodality). In the plane q is the unit complex number e^(iθ/2) and q̂ = q + ε ½ τ q̄, a half angle too: blends of full
 // angles would depend on the origin.
 //
-// Only the rigid part of a transform T = [A | t] counts: the rotation closest to A, scale and shear left out, and the translation
+// Only the rigid part of a transform T = [A | t] counts: the rotation closest to A, without scale and shear, and the translation
 // that takes the handle's own region, the mean of the vertices by wᵢⱼ², where T takes it. Sums of weights do not matter. Where
 // weights of both signs cancel the blend, the vertex follows its pivot. Single precision, and displacements from the box's middle
 // as in linear_blend.hpp: identities leave every vertex exactly where it was.

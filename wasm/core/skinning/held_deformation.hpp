@@ -17,7 +17,7 @@ namespace handlebody {
 /** Twice the signed area of a triangle: at the positions p (n×2), or moved by u (n×2). */
 double doubled_area(const std::uint32_t* corners, const double* p, const double* u = nullptr);
 
-/** What the last deform() came to. */
+/** The result of the last deform(). */
 struct DeformationReport {
   double energy = 0;
   std::uint32_t iterations = 0, flips = 0;  // triangles whose orientation changed, or whose area vanished
@@ -27,7 +27,7 @@ class HeldDeformation : public Skin {
  public:
   const DeformationReport& report() const { return report_; }
 
-  /** Rounds of energies that are minimized step by step. */
+  /** The most rounds in a frame, for energies that are minimized iteratively. */
   void set_iterations(std::uint32_t most) { most_iterations_ = most; }
 
  protected:
@@ -47,7 +47,7 @@ class HeldDeformation : public Skin {
 
   explicit HeldDeformation(Setup setup);
 
-  /** Gives the free rows of `displacements_` their values, given those of the held ones. */
+  /** Computes the free rows of `displacements_` from the held ones. */
   virtual void minimize() = 0;
 
   SimplexMesh mesh_;

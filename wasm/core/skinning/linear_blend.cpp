@@ -7,7 +7,7 @@
 namespace handlebody {
 namespace {
 
-/** Vertices go in tiles of eight, their numbers in pairs of a vector type of the compiler's (see frame_kernel.hpp). */
+/** Vertices go in tiles of eight, as pairs of the compiler's vector type (see frame_kernel.hpp). */
 constexpr Index lanes = 8;
 using Quad = float __attribute__((vector_size(16)));
 
@@ -22,7 +22,7 @@ class LinearBlend final : public Skin {
   void move_tiles(float* out) const;
 
   bool compiled_;
-  Index first_ = 0;  // number of the handle that the others are blended beyond; −1 for the one of what is lacking
+  Index first_ = 0;  // the handle numbered 0 in the header; −1 for the additional one with the missing weight
   double center_[3] = {};
   std::vector<Quad>
       stacked_;  // row by row of the transforms: handle 0's m₀, then mⱼ − m₀, d + 1 numbers each, all lanes of a quad alike
@@ -76,7 +76,7 @@ void LinearBlend::stack_transforms() {
   }
 }
 
-/** Rows of four vertices from d quads of their coordinates, and in space one number more: overwritten by the next. */
+/** Rows of four vertices from d quads of their coordinates; in space also one number too many, which the next call overwrites. */
 template <Index d>
 void store(const Quad* moved, float* out) {
   using Unaligned = float __attribute__((vector_size(16), aligned(4)));
@@ -95,7 +95,7 @@ void store(const Quad* moved, float* out) {
   }
 }
 
-/** t · [x; 1] of every other quad of x, in pairs; with `all`, t · x of one more. */
+/** t · [x; 1] for every other quad of x; with `all`, one more quad of x stands for the 1. */
 template <Index d, bool all = false>
 Quad dot(const Quad* t, const Quad* x) {
   const Quad last = all ? t[d] * x[2 * d] : t[d];
@@ -103,7 +103,7 @@ Quad dot(const Quad* t, const Quad* x) {
   return (t[0] * x[0] + t[1] * x[2]) + (t[2] * x[4] + last);
 }
 
-/** One row of the transforms at a time: what a turn of the inner loop takes fits the sixteen registers that engines use. */
+/** One row of the transforms at a time, so that the inner loop fits the sixteen registers that engines use. */
 template <Index d, bool compiled>
 void LinearBlend::move_tiles(float* out) const {
   const Index others = handles_ - 1 - first_, columns = compiled ? d + 1 : 1;

@@ -13,7 +13,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_bytes = 1.5e9;
 constexpr double around_a_bend = 1.5;  // times the straight distance
-constexpr double counts = 0.01;        // a weight that does
+constexpr double counts = 0.01;        // a weight above this counts
 // Squares of gradients must not overflow. Meshes are larger than 1e-60 and smaller than 1e60.
 constexpr double largest_weight = 1e60, shortest_edge = 1e-60;
 
@@ -108,7 +108,7 @@ struct Neighbors {
   std::uint32_t one, other;
 };
 
-/** Where more than two share a face, each of the others with the first. */
+/** Pairs with a common face; where more than two simplices share it, each of the others with the first. */
 std::vector<Neighbors> face_neighbors(const Simplices& simplices) {
   const Index corners = simplices.cols();
   // Face k of simplex s, across from its corner k, is number s · corners + k; its vertices in ascending order.
@@ -201,7 +201,7 @@ struct Direct {
   double distance;
 };
 
-/** The handle that is nearest to a vertex in a straight line; of two that are as near the first. */
+/** The handle that is nearest to a vertex in a straight line; of two at the same distance, the first. */
 Direct nearest_straight(const SimplexMesh& mesh, const HeldVertices& held, Index v) {
   Direct nearest{0, infinite};
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {

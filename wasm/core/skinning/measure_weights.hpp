@@ -2,7 +2,7 @@
 // partition of unity. Each measure is the worst number over the mesh. Weights may come from anywhere.
 //
 // Distances inside the shape, d(v, j) of a vertex from a handle, are lengths of shortest paths along edges (Dijkstra), a little
-// longer than the true ones and infinite from part to part; straight distances go through thin air.
+// longer than the true ones, and infinite between separate parts; straight distances may lead outside the shape.
 #pragma once
 
 #include "core/skinning/held_vertices.hpp"
@@ -12,10 +12,10 @@ namespace handlebody {
 struct WeightMeasures {
   /** The largest jump of ∇wⱼ across a face between two simplices, over the largest |∇wⱼ|; the worst j. */
   double gradient_jump = 0;
-  /** The largest |wⱼ| at a vertex where d(v, j) is more than twice the distance inside of the nearest handle. */
+  /** The largest |wⱼ| at a vertex where d(v, j) is more than twice the distance inside to the nearest handle. */
   double far_weight = 0;
-  /** The largest |wⱼ| where handle j is the nearest in a straight line, but half as far again inside, and another one is nearer
-   * there. NaN where the shape has no such place. */
+  /** The largest |wⱼ| where handle j is the nearest in a straight line, but inside it is half as far again, and another handle is
+   * nearer. NaN where the shape has no such place. */
   double leaked_weight = 0;
   double sum_error = 0;  // the largest |Σⱼ wⱼ − 1|
   double least = 0, largest = 0;

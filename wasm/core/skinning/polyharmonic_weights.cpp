@@ -116,7 +116,7 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
 
   const auto released = std::ssize(change.released), size = released + std::ssize(change.added);
   if (size > 0) {
-    // One function for each vertex let go of: its own weight function; and for each held anew: the response to a force there.
+    // One function for each released vertex, its own weight function, and for each newly held one, the response to a force there.
     Indices holds(factored_h, 0);
     for (const std::uint32_t owner : factored_held_.owners) ++holds[owner];
     MatrixXd functions(n, size);
@@ -139,7 +139,7 @@ bool PolyharmonicWeights::update(const HeldVertices& held, const Change& change)
       functions.col(k) = function;
     }
 
-    // No force where a vertex was let go of; the right value where one is held anew.
+    // No force at a released vertex; the right value at a newly held one.
     MatrixXd equations(size, size), right(size, h);
     for (Index i = 0; i < size; ++i) {
       if (i < released) {

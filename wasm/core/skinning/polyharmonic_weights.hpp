@@ -11,13 +11,13 @@
 
 namespace handlebody {
 
-/** Least ∫|∇w|², ∫(Δw)² or ∫|∇Δw|² for the order 1, 2 or 3: wᵀ Q w with the Q of polyharmonic_energy.hpp. Order 1, harmonic, has
- * spikes at point handles; order 2, biharmonic, is smooth but leaves [0, 1]; order 3 is smoother and leaves it farther. Weights
+/** Minimizes ∫|∇w|², ∫(Δw)² or ∫|∇Δw|² for the order 1, 2 or 3: wᵀ Q w with the Q of polyharmonic_energy.hpp. Order 1, harmonic,
+ * has spikes at point handles; order 2, biharmonic, is smooth but leaves [0, 1]; order 3 is smoother and leaves it farther. Weights
  * always sum to 1.
  *
- * The first handles are factored in: W = Q_ff⁻¹ (−Q_fp) (lecture's x = −A⁻¹ B y). Later ones are small updates of that: a vertex
- * held anew adds the response to a force there, one let go of adds its own weight function; a dense system of as many equations
- * sets them. Each is one solve, where not known already; where that adds up to more than a new factorization, there is one. */
+ * The matrix is factored for the first handles: W = Q_ff⁻¹ (−Q_fp) (lecture's x = −A⁻¹ B y). Later ones are small updates of that:
+ * a newly held vertex adds the response to a force there, a released one its own weight function, with coefficients from a dense
+ * system. Each function takes one solve unless it is known; where these add up to more than a new factorization, there is one. */
 class PolyharmonicWeights {
  public:
   /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3; OUT_OF_MEMORY as polyharmonic_energy(). */
@@ -40,7 +40,7 @@ class PolyharmonicWeights {
   const Vector& mass() const { return mass_; }
 
  private:
-  /** How to come from the factored handles to others. */
+  /** How other handles differ from the factored ones. */
   struct Change {
     std::vector<std::uint32_t> target;  // for each factored handle, the handle that its vertices belong to now, or none
     Indices released, added;            // vertices

@@ -53,10 +53,10 @@ class QuadraticDeformation final : public HeldDeformation {
   }
 
  private:
-  /** Takes q. */
+  /** Takes the contents of q. */
   QuadraticDeformation(Setup setup, SparseMatrix& q, std::unique_ptr<MinQuadWithFixed> solver)
       : HeldDeformation(std::move(setup)), solver_(std::move(solver)), product_(q.rows()) {
-    q_.swap(q);  // Eigen's sparse matrices are not moved
+    q_.swap(q);  // Eigen would copy a sparse matrix that is moved
   }
 
   void minimize() override {

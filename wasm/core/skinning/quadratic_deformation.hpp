@@ -1,4 +1,4 @@
-// Deformations that minimize a quadratic energy (lecture, "Energy-based Deformation"): one factorization, and one solve a frame.
+// Deformations that minimize a quadratic energy (lecture, "Energy-based Deformation"): one factorization, and one solve per frame.
 // With u the displacement and f = v + u the map,
 //
 //   dirichlet   ½ ∫|∇u|²            = ½ uᵀ C u         kinks at the handles, shrinks where they pull
@@ -6,8 +6,8 @@
 //   conformal   ½ ∫|∇f|² − area(f)                     each triangle's distance to a similarity: angles stay, sizes may not
 //
 // with C the cotangent Laplacian, M the Voronoi masses and area(f) the signed one, positive where f keeps orientation (Lévy et al.
-// 2002; the first step of Igarashi et al. 2005, integrated). The first two know each coordinate for itself, and do not see
-// rotations. Conformal has 2n unknowns, and is 0 for similarities only.
+// 2002; the first step of Igarashi et al. 2005, integrated). The first two treat each coordinate separately, and are not invariant
+// under rotations. Conformal has 2n unknowns, and is 0 for similarities only.
 #pragma once
 
 #include "core/skinning/held_deformation.hpp"

@@ -10,7 +10,7 @@ bool fits_float(double number) {
   return std::isfinite(static_cast<float>(number));
 }
 
-/** Where the first number is that a float cannot hold; `count` where there is none. */
+/** Index of the first number that a float cannot hold; `count` where there is none. */
 Index first_unfit(const double* numbers, Index count) {
   Index i = 0;
   while (i < count && fits_float(numbers[i])) ++i;

@@ -1,5 +1,5 @@
 // What every deformation of a shape by a few moving handles has in common: n rest positions vᵢ in the plane or in space (d = 2, 3),
-// and h handles, each with an affine transform Tⱼ. What the handles do to the shape is the method's.
+// and h handles, each with an affine transform Tⱼ. How the handles deform the shape is up to the method.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ class Skin {
   std::vector<double> transforms_;
 };
 
-/** What blending starts from, row-major: `positions` vertices × dimension, `weights` vertices × handles. */
+/** The input of blending, row-major: `positions` vertices × dimension, `weights` vertices × handles. */
 struct WeightedShape {
   const double *positions, *weights;
   Index vertices, dimension, handles;
@@ -46,7 +46,7 @@ struct WeightedShape {
  * is going to keep, are more than a GiB. */
 Result<Done> check_shape(const WeightedShape& shape, double floats);
 
-/** The middle of the bounding box, as floats hold it: what single precision should be relative to. */
+/** The middle of the bounding box, rounded to floats: the origin for coordinates in single precision. */
 void box_center(const double* positions, Index vertices, Index dimension, double* center);
 
 }  // namespace handlebody
