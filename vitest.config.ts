@@ -28,8 +28,8 @@ export default defineConfig({
         test: {
           name: 'web',
           include: ['tests/web/**/*.test.ts'],
-          // One browser at a time: software WebGL takes all the cores there are.
-          fileParallelism: false,
+          // Two browsers at a time: software WebGL takes the cores there are, and a page that loads or rests leaves them idle.
+          maxWorkers: 2,
           globalSetup: existsSync(webSetup) ? [webSetup] : [],
           testTimeout: 120_000,
           hookTimeout: 180_000,

@@ -31,9 +31,13 @@ export function ensurePython(folder, module, packages) {
   return status === 0 ? undefined : `pip could not install ${packages.join(', ')}: ${stderr.trim().split('\n').at(-1)}`;
 }
 
+/** Node 20 may wait for ever at its end for a compilation of JavaScript that waits for a collection (nodejs/node, issue 54918). */
+const NODE_OPTIONS = ['--no-concurrent-recompilation'];
+
 /** @param {string} program @param {string[]} args @param {NodeJS.ProcessEnv} [env] @returns {Times} */
 export function measure(program, args, env = process.env) {
-  const { status, stdout, stderr } = capture(program, args, { env });
+  const options = program === process.execPath ? NODE_OPTIONS : [];
+  const { status, stdout, stderr } = capture(program, [...options, ...args], { env });
   if (status !== 0) throw new Error(`${path.basename(program)} failed: ${stderr}`);
   return JSON.parse(stdout);
 }

@@ -270,7 +270,7 @@ typedef struct hb_rbf_options {
   double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers chooses it */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
   double support;        /* where the compact inverse multiquadric ends, in widths */
-  const double* widths;  /* one a center, or NULL */
+  const double* widths;  /* one per center, or NULL */
   const double* centers; /* center_count × dimension, or NULL for the points themselves */
   const double* metric;  /* dimension × dimension, symmetric and positive definite, or NULL for Euclidean distances */
   uint32_t center_count; /* of `centers`, and of `widths` */

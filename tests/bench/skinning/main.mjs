@@ -37,8 +37,8 @@ export async function benchSkinning() {
     if (status !== 0) throw new Error(`gingerbread.py failed: ${stderr}`);
     /** @type {Record<string, () => Times>} */
     const sides = {
-      wasm: () => measure(process.execPath, [here('weights-wasm-side.mjs'), mesh, '3']),
-      native: () => measure(weightsProgram, [mesh, '3']),
+      wasm: () => measure(process.execPath, [here('weights-wasm-side.mjs'), mesh, '9']),
+      native: () => measure(weightsProgram, [mesh, '9']),
       libigl: () => measure('python3', [here('libigl_side.py'), mesh, '1'], python),
       skinWasm: () => measure(process.execPath, [here('wasm-side.mjs')]),
       skinNative: () => measure(skinProgram, []),

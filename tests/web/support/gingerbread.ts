@@ -1,33 +1,32 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { inject, onTestFinished } from 'vitest';
+import { listen } from './listen.ts';
+import { type Opened, sharedPage } from './shared-page.ts';
 import { frames } from './studio.ts';
 
-export interface Opened {
-  readonly page: Page;
-  /** What the console says. */
-  readonly said: string[];
-}
+const ORDINARY = { viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce' } as const;
 
-/** Opens the lesson at an address in a context of its own. */
+/** Opens the lesson at an address: in a context of its own where the visit is no ordinary one, else in the page that all such tests share. */
 export async function bend(
   browser: Browser,
   hash: string,
   { before, state = 'ready', ...options }: BrowserContextOptions & { before?: () => void; state?: 'ready' | 'failed' } = {},
 ): Promise<Opened> {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
+  const address = `${inject('site')}learn/gingerbread/${hash}`;
+  if (!before && state === 'ready' && Object.keys(options).length === 0) {
+    const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
+    await opened.page.waitForSelector('#lesson[data-state=ready]', { timeout: 60_000 });
+    await rested(opened.page);
+    return opened;
+  }
+  const context = await browser.newContext({ ...ORDINARY, ...options });
   onTestFinished(() => context.close());
   const page = await context.newPage();
-  const said: string[] = [];
-  page.on(
-    'console',
-    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
-  );
-  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
-  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  const said = listen(page);
   if (before) await page.addInitScript(before);
   // What the page says of itself is waited for: a loaded machine is slow to load.
-  await page.goto(`${inject('site')}learn/gingerbread/${hash}`, { waitUntil: 'commit', timeout: 60_000 });
+  await page.goto(address, { waitUntil: 'commit', timeout: 60_000 });
   await page.waitForSelector(`#lesson[data-state=${state}]`, { timeout: 60_000 });
   if (state === 'ready') await rested(page);
   return { page, said };

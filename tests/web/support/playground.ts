@@ -1,25 +1,30 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
+import { listen } from './listen.ts';
+import { type Opened, sharedPage } from './shared-page.ts';
 import { frames } from './studio.ts';
 
-/** Opens the playground at an address in a context of its own and collects what the console says. */
+const ORDINARY = { viewport: { width: 1280, height: 800 } } as const;
+
+/** Opens the playground at an address: in a context of its own where the visit is no ordinary one, else in the page that all such tests share. */
 export async function play(
   browser: Browser,
   hash: string,
   { before, ...options }: BrowserContextOptions & { before?: () => void } = {},
-): Promise<{ page: Page; said: string[] }> {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+): Promise<Opened> {
+  const address = `${inject('site')}learn/interpolation/${hash}`;
+  if (!before && Object.keys(options).length === 0) {
+    const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
+    await opened.page.waitForSelector('#playground[data-state=ready]', { timeout: 60_000 });
+    await rested(opened.page);
+    return opened;
+  }
+  const context = await browser.newContext({ ...ORDINARY, ...options });
   onTestFinished(() => context.close());
   const page = await context.newPage();
-  const said: string[] = [];
-  page.on(
-    'console',
-    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
-  );
-  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
-  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  const said = listen(page);
   if (before) await page.addInitScript(before);
-  await page.goto(`${inject('site')}learn/interpolation/${hash}`);
+  await page.goto(address);
   await page.waitForSelector('#playground[data-state=ready]', { timeout: 60_000 });
   await rested(page);
   return { page, said };

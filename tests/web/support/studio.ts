@@ -2,6 +2,7 @@ import { type Browser, type BrowserContextOptions, chromium, type Page } from 'p
 import { PNG } from 'pngjs';
 import { expect, inject, onTestFinished } from 'vitest';
 import { CHROMIUM_ARGS, findChromium } from '../../../scripts/chromium.mjs';
+import { listen } from './listen.ts';
 
 export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } as const;
 
@@ -27,13 +28,7 @@ export async function visit(
   const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
   if (!shared) onTestFinished(() => context.close());
   const page = await context.newPage();
-  const said: string[] = [];
-  page.on(
-    'console',
-    (message) => ['error', 'warning'].includes(message.type()) && said.push(`${message.type()}: ${message.text()}`),
-  );
-  page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));
-  page.on('response', (response) => response.status() >= 400 && said.push(`${response.status()}: ${response.url()}`));
+  const said = listen(page);
   if (before) await page.addInitScript(before);
   await page.goto(`${inject('site')}studio/${hash}`);
   await page.waitForSelector(`#studio[data-state=${state}]`, { timeout: 60_000 });

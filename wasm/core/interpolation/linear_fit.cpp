@@ -184,7 +184,7 @@ class SideConditions {
   void fill_design(RadialBasis& basis, const Matrix& points, Eigen::Ref<MatrixXd> out) const {
     constexpr Index block = 64;
     const Index n = points.rows(), tail = basis.tail();
-    MatrixXd functions(basis.size(), std::min(block, n));  // one column a point
+    MatrixXd functions(basis.size(), std::min(block, n));  // one column per point
     for (Index first = 0; first < n; first += block) {
       const Index width = std::min(block, n - first);
       for (Index q = 0; q < width; ++q) basis.values(&points(first + q, 0), &functions(0, q));

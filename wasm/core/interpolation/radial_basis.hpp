@@ -1,5 +1,5 @@
-// The functions whose linear combination a radial basis interpolant is (2014 course, eq. (1) of §4.4 and §5.2): a kernel at each of
-// k centers and the polynomials up to a degree,
+// The functions that a radial basis interpolant combines linearly (2014 course, eq. (1) of §4.4 and §5.2): a kernel at each of k
+// centers and the polynomials up to a degree,
 //
 //   φᵢ(x) = aᵢ φ(‖x − cᵢ‖/hᵢ),  i < k,   then   p₁(x), p₂(x), …
 //

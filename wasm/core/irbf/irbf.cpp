@@ -147,7 +147,7 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
 
 /** The other product of the appendix, N × (3B + K) instead of N × C, where it is the smaller one and quickly made: few spheres,
  *  many centers. It depends on the handles: for 173,000 vertices, 400 centers and 79 spheres (the paper's Armadillo) each set of
- *  handles takes 17 billion multiplications, seconds, where the 16-bit product with Ψ itself takes five milliseconds a frame. */
+ *  handles takes 17 billion multiplications, seconds, where the 16-bit product with Ψ itself takes five milliseconds per frame. */
 std::unique_ptr<FrameKernel> Irbf::make_handle_kernel(const ReducedSystem& system) const {
   const Index columns = system.inverse.cols(), centers = basis_->size(), count = psi_.rows();
   const double products = static_cast<double>(count) * static_cast<double>(columns * (4 + centers));

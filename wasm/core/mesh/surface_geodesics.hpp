@@ -16,8 +16,8 @@ class SurfaceGeodesics {
  public:
   SurfaceGeodesics(const ConstPoints& positions, const ConstTriangles& triangles);
 
-  /** Distances along the surface from vertex `source` to every vertex, into `distances` (one a vertex); +infinity to other parts of
-   *  the mesh. On smooth surfaces about 0.5% off in the mean. Allocates nothing after the first call. */
+  /** Distances along the surface from vertex `source` to every vertex, into `distances` (one per vertex); +infinity to other parts
+   *  of the mesh. On smooth surfaces about 0.5% off in the mean. Allocates nothing after the first call. */
   void measure(std::uint32_t source, double* distances);
 
  private:

@@ -3,8 +3,7 @@
 //
 //   x = argmin E(x) + ½ ‖x − (2z − s)‖²   in the metric ρD,     s ← s + α (x − z).
 //
-// This is Douglas–Rachford's form, over-relaxed by α = 1.6. One factorization of B + ρD, shared by all handles, is solved each
-// time.
+// This is Douglas–Rachford's form, over-relaxed by α = 1.6. One factorization of B + ρD serves all handles and all sweeps.
 #pragma once
 
 #include <memory>

@@ -1,0 +1,297 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { METHODS } from '../../web/learn/gingerbread/methods.ts';
+import { bend, covered, finished, handleAt, passTime, picture, pngOf, rested, stoppableClock } from './support/gingerbread.ts';
+import { violations } from './support/manners.ts';
+import { difference, frames, launch, loseContext, soon } from './support/studio.ts';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+
+const trouble = (page: Page) => page.locator('#trouble').textContent();
+
+describe('methods', () => {
+  it('each draws the same pose in its own way; tiles choose them', async () => {
+    const { page, said } = await bend(
+      browser,
+      '#shape=man&h=p:0,0.62~p:-0.72,0.16~p:0.72,0.16,-0.1,0.5,60~p:-0.36,-0.82~p:0.36,-0.82~p:0,-0.1',
+    );
+    await finished(page);
+    const pictures = new Map<string, Awaited<ReturnType<typeof picture>>>();
+    for (const { id, title, family } of METHODS) {
+      if (family === 'irbf') continue;
+      await page.locator(`.tile[data-method=${id}]`).click();
+      await rested(page);
+      expect(await page.locator('.caption strong').textContent()).toBe(title);
+      expect(await page.locator('.tile[aria-current]').getAttribute('data-method')).toBe(id);
+      pictures.set(id, await picture(page));
+    }
+    const [first, ...others] = [...pictures];
+    for (const [, other] of others) expect(difference((first as NonNullable<typeof first>)[1], other)).toBeGreaterThan(100);
+    expect(await trouble(page)).toBe('');
+    expect(said).toEqual([]);
+  });
+
+  it('a wrist turned by 170° collapses under linear blending, not under rigid blending', async () => {
+    const { page } = await bend(browser, '#man');
+    await page.getByRole('button', { name: 'Turn a wrist by 170°' }).click();
+    await rested(page);
+    const linear = covered(await picture(page));
+    await page.locator('.families input[value=rigid]').check();
+    await rested(page);
+    const rigid = covered(await picture(page));
+    expect(linear).toBeLessThan(0.985 * rigid);
+  });
+
+  it('interior radial basis functions are prepared on demand, on both distances', async () => {
+    const { page, said } = await bend(browser, '#shape=octopus&v=600&h=p:0,0.4~p:-0.44,-0.95,-0.4,0.1,0~p:0.44,-0.95');
+    const before = await picture(page);
+    await page.locator('.families input[value=irbf]').check();
+    await page.waitForSelector('#note progress');
+    await rested(page);
+    await finished(page);
+    const interior = await picture(page);
+    expect(difference(before, interior)).toBeGreaterThan(500);
+    await page.getByRole('radio', { name: /^Euclidean/ }).check();
+    await page.waitForSelector('#note progress');
+    await rested(page);
+    await finished(page);
+    expect(difference(interior, await picture(page))).toBeGreaterThan(300);
+    expect(await page.locator('.tile[data-drawn]').count()).toBe(METHODS.length);
+    expect(said).toEqual([]);
+  });
+
+  it('preparing can be cancelled; the last picture stays', async () => {
+    const { page } = await bend(browser, '#shape=man&v=6000');
+    const before = await picture(page);
+    await page.locator('.families input[value=irbf]').check();
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await soon(() => page.locator('#note').isHidden()).toBe(true);
+    expect(difference(before, await picture(page))).toBeLessThan(20);
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+  });
+
+  it('the weight of the picked handle is shown in colors, and triangles when asked', async () => {
+    const { page } = await bend(browser, '#man');
+    const plain = await picture(page);
+    await page.locator('#show-weight').check();
+    await rested(page);
+    const weight = await picture(page);
+    expect(difference(plain, weight)).toBeGreaterThan(8000);
+    expect(await page.locator('.legend').isVisible()).toBe(true);
+    await page.locator('.handle').nth(4).focus();
+    await frames(page, 3);
+    const other = await picture(page);
+    expect(difference(weight, other)).toBeGreaterThan(2000);
+    await page.locator('#show-mesh').check();
+    await frames(page, 3);
+    expect(difference(other, await picture(page), 12)).toBeGreaterThan(2000);
+    await rested(page);
+    expect(await page.evaluate(() => location.hash)).toMatch(/show=weight,mesh/);
+  });
+
+  it('the table marks what a method breaks', async () => {
+    const { page } = await bend(browser, '#man');
+    await finished(page);
+    const cells = await page
+      .locator('.requirements tbody tr')
+      .evaluateAll((rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent ?? '')));
+    const row = (name: string) => (cells.find(([head]) => head === name) ?? []).slice(1);
+    // Biharmonic, bounded, harmonic, triharmonic.
+    expect(row('Bounded').map((text) => text.includes('broken'))).toEqual([true, false, false, true]);
+    expect(row('Sums to 1').every((text) => text.includes('holds'))).toBe(true);
+    expect(row('Smooth')).toHaveLength(4);
+  });
+
+  it('a piece without a handle is named, with what was done', async () => {
+    const { page } = await bend(
+      browser,
+      '#shape=own&v=400&o=-900,-300,-300,-300,-300,300,-900,300;300,-300,900,-300,900,300,300,300&h=p:-0.6,0,0,0.2,0',
+    );
+    expect(await page.locator('.found').textContent()).toMatch(
+      /^A piece of \d+ vertices .* holds no handle: all of it follows handle 0/,
+    );
+    await page.locator('#add-point').click();
+    await rested(page);
+    expect(await page.locator('.found').isVisible()).toBe(false);
+  });
+});
+
+describe('shapes of one’s own', () => {
+  it('are drawn in one stroke', async () => {
+    const { page, said } = await bend(browser, '#man');
+    await page.locator('input[name=shape][value=own]').check();
+    const sheet = await page.locator('.sheet').boundingBox();
+    if (!sheet) throw new Error('there is nothing to draw on');
+    const [cx, cy] = [sheet.x + sheet.width / 2, sheet.y + sheet.height / 2];
+    await page.mouse.move(cx + 150, cy);
+    await page.mouse.down();
+    for (let i = 1; i < 40; i++)
+      await page.mouse.move(cx + 150 * Math.cos((i * Math.PI) / 20), cy + 110 * Math.sin((i * Math.PI) / 20));
+    await page.mouse.up();
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
+    await rested(page);
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    expect(await page.locator('.handle.start').count()).toBe(4);
+    const hash = await page.evaluate(() => location.hash);
+    expect(hash).toMatch(/^#shape=own&o=/);
+    const before = await picture(page);
+    await page.reload();
+    await page.waitForSelector('#lesson[data-state=ready]');
+    await rested(page);
+    expect(difference(before, await picture(page))).toBeLessThan(50);
+    expect(said).toEqual([]);
+  });
+
+  it('are typed, with holes; what crosses itself is told with both edges, and the picture stays', async () => {
+    const { page } = await bend(browser, '#bar');
+    const before = await picture(page);
+    await page.locator('input[name=shape][value=own]').check();
+    await page.locator('.own summary').click();
+    const use = async (text: string) => {
+      await page.locator('.own textarea').fill(text);
+      await page.locator('#use-typed').click();
+      await frames(page, 3);
+    };
+    await use('0 0\n1 1\n1 0\n0 1');
+    expect(await trouble(page)).toMatch(/^Edge 0 and edge 2 of the outline cross or touch\. Move/);
+    await use('0 0\n1 1');
+    expect(await trouble(page)).toMatch(/encloses nothing/);
+    await use('0 0\n1 zero\n1 1');
+    expect(await trouble(page)).toMatch(/Point 1 of the outline is at \(1, NaN\)/);
+    expect(difference(before, await picture(page))).toBeLessThan(20);
+    await use('-1 -1\n1 -1\n1 1\n-1 1\n-1 -1\n\n-0.4 -0.4\n0.4 -0.4\n0.4 0.4\n-0.4 0.4');
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    await rested(page);
+    const shape = await picture(page);
+    const middle = 4 * (Math.floor(shape.height / 2) * shape.width + Math.floor(shape.width / 2));
+    // Through the hole the ground is seen.
+    expect(Math.max(...shape.data.slice(middle, middle + 3)) - Math.min(...shape.data.slice(middle, middle + 3))).toBeLessThan(20);
+  });
+
+  const open = async (page: Page, name: string, buffer: Buffer, mimeType: string) => {
+    await page.setInputFiles('#file', { name, mimeType, buffer });
+    await frames(page, 2);
+    await soon(() => page.locator('#note').isHidden()).toBe(true);
+  };
+
+  it('come from a PNG with transparency, holes too', async () => {
+    const { page, said } = await bend(browser, '#man');
+    const ring = pngOf(200, 200, (x, y) => {
+      const r = Math.hypot(x - 100, y - 100);
+      return [30, 90, 220, r < 90 && r > 40 ? 255 : 0];
+    });
+    await open(page, 'ring.png', ring, 'image/png');
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
+    await rested(page);
+    const shape = await picture(page);
+    let blue = 0;
+    for (let i = 0; i < shape.data.length; i += 4)
+      if ((shape.data[i + 2] as number) > 180 && (shape.data[i] as number) < 80) blue++;
+    expect(blue).toBeGreaterThan(8000);
+    expect((await page.evaluate(() => location.hash)).split(';').length).toBeGreaterThanOrEqual(2);
+    expect(said).toEqual([]);
+  });
+
+  it('come from an SVG, whose scripts never run and which fetches nothing', async () => {
+    const { page, said } = await bend(browser, '#man');
+    const asked: string[] = [];
+    page.on('request', (request) => asked.push(request.url()));
+    const evil =
+      '<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" onload="top.ran=1;parent.ran=1">' +
+      '<script>top.ran=1;parent.ran=1;fetch("/stolen")</script><image href="/stolen.png" width="9" height="9"/>' +
+      '<path fill-rule="evenodd" fill="tomato" d="M10 10H90V70H10Z M40 30H60V50H40Z"/></svg>';
+    await open(page, 'evil.svg', Buffer.from(evil), 'image/svg+xml');
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
+    await rested(page);
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    expect(await page.evaluate('window.ran')).toBeUndefined();
+    expect(asked.filter((url) => url.includes('stolen'))).toEqual([]);
+    expect(said).toEqual([]);
+  });
+
+  it.each([
+    ['an opaque PNG', pngOf(20, 20, () => [200, 0, 0, 255]), 'image/png', /no transparency/],
+    ['an empty PNG', pngOf(20, 20, () => [200, 0, 0, 0]), 'image/png', /Nothing in the picture is opaque/],
+    ['a file that is no picture', Buffer.from('PNG? no.'), 'image/png', /“a file” is no picture that this browser can show/],
+    ['half a PNG', pngOf(20, 20, () => [200, 0, 0, 255]).subarray(0, 40), 'image/png', /is no picture/],
+  ])('%s is told in a sentence, the picture stays', async (_, buffer, type, sentence) => {
+    const { page } = await bend(browser, '#ring');
+    const before = await picture(page);
+    await open(page, 'a file', buffer, type);
+    await soon(() => trouble(page)).toMatch(sentence);
+    expect(await page.locator('#title').textContent()).toBe('Ring');
+    expect(difference(before, await picture(page))).toBeLessThan(20);
+  });
+});
+
+describe('manners', () => {
+  it('nothing is drawn at rest', async () => {
+    const { page } = await bend(browser, '#man', {
+      before: () => {
+        const counted = globalThis as unknown as { draws: number };
+        counted.draws = 0;
+        const { prototype } = WebGL2RenderingContext;
+        const { drawElements } = prototype;
+        prototype.drawElements = function (...args) {
+          counted.draws++;
+          drawElements.apply(this, args);
+        };
+      },
+    });
+    await finished(page);
+    const draws = () => page.evaluate(() => (globalThis as unknown as { draws: number }).draws);
+    const before = await draws();
+    expect(before).toBeGreaterThan(10);
+    await frames(page, 40);
+    expect(await draws()).toBe(before);
+  });
+
+  it('without WebGL there is a sentence', async () => {
+    const { page } = await bend(browser, '#man', {
+      state: 'failed',
+      before: () => {
+        HTMLCanvasElement.prototype.getContext = (() => null) as never;
+      },
+    });
+    expect(await trouble(page)).toMatch(/no WebGL.*hardware acceleration/);
+    expect(await violations(page)).toEqual([]);
+  });
+
+  it('a lost context comes back by itself', async () => {
+    const { page } = await bend(browser, '#man');
+    const before = await picture(page);
+    await loseContext(page);
+    await soon(async () => difference(before, await picture(page))).toBeLessThan(200);
+  });
+
+  it('poses are struck in motion, unless motion is not wanted', async () => {
+    const { page } = await bend(browser, '#man', { reducedMotion: 'no-preference', before: stoppableClock });
+    const rest = await handleAt(page, 2);
+    await passTime(page, 0);
+    await page.getByRole('button', { name: 'Dance' }).click();
+    await frames(page, 2);
+    expect(await handleAt(page, 2)).toEqual(rest);
+    await passTime(page, 150);
+    await frames(page, 2);
+    const onTheWay = await handleAt(page, 2);
+    await passTime(page, 5000);
+    await rested(page);
+    const struck = await handleAt(page, 2);
+    const way = Math.hypot(struck.x - rest.x, struck.y - rest.y);
+    expect(way).toBeGreaterThan(20);
+    const part = ((onTheWay.x - rest.x) * (struck.x - rest.x) + (onTheWay.y - rest.y) * (struck.y - rest.y)) / way ** 2;
+    expect(part).toBeGreaterThan(0.1);
+    expect(part).toBeLessThan(0.9);
+
+    const still = await bend(browser, '#man', { before: stoppableClock });
+    await passTime(still.page, 0);
+    await still.page.getByRole('button', { name: 'Dance' }).click();
+    await frames(still.page, 2);
+    expect(await handleAt(still.page, 2)).toEqual(struck);
+  });
+});
