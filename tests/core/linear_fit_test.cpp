@@ -133,7 +133,7 @@ TEST_CASE("interpolation solves the block equations: every kernel, tail and dime
     }
   }
   CHECK(compared > 200);
-  CHECK(held > 200);  // all that a theorem says are definite
+  CHECK(held > 200);             // all that a theorem says are definite
   CHECK(near > 0.9 * compared);  // the estimate is a lower bound, far off where the largest column of the inverse hides
 }
 
