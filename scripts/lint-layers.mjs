@@ -12,6 +12,7 @@ const FLOOR_2 = ['wasm/core/interpolation', 'wasm/core/distance', 'wasm/core/ski
 const FLOOR_3 = ['wasm/core/irbf', 'wasm/core/posespace'];
 const CORE = [...FLOOR_1, ...FLOOR_2, ...FLOOR_3];
 const BASE = ['wasm/ts', 'web/assets', 'web/models', 'web/three', 'web/worker'];
+const KIT = [...BASE, 'web/ui', 'web/stage', 'web/figures/kit'];
 const GLTF = '@gltf-transform/';
 
 /**
@@ -22,6 +23,7 @@ const GLTF = '@gltf-transform/';
  * @property {string[]} [lazy] packages that only a dynamic import() may name
  * @property {string[]} [never] packages that no chain of imports may reach
  * @property {string[]} [globals] globals that must not be touched
+ * @property {boolean} [apart] its files do not use each other
  */
 
 /** @type {Record<string, Layer>} The longest folder that contains a file decides. */
@@ -39,14 +41,20 @@ export const LAYERS = {
   'wasm/ts': { may: [], packages: [], lazy: ['node:'], never: ['three', GLTF], globals: ['document', 'window'] },
   'web/assets': { may: ['wasm/ts'], packages: [GLTF], lazy: ['meshoptimizer'], never: ['three'] },
   'web/models': { may: ['wasm/ts'], packages: ['delaunator', 'd3-contour'], never: ['three', GLTF] },
-  'web/three': { may: ['wasm/ts', 'web/assets'], packages: ['three'], never: [GLTF] },
+  'web/three': { may: ['wasm/ts', 'web/assets', 'web/ui'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
   'web/ui': { may: [], packages: [] },
   'web/stage': { may: ['web/ui'], packages: ['three'] },
+  'web/figures/kit': { may: [...BASE, 'web/ui', 'web/stage'], packages: ['three', 'd3-array', 'd3-contour'] },
+  'web/figures/course': { may: KIT, packages: ['three'], apart: true },
+  'web/figures': { may: ['web/figures/kit', 'web/figures/course'] },
   'web/element': { may: [...BASE, 'web/ui'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
-  'web/learn': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', 'd3-array', 'd3-contour', GLTF] },
+  'web/learn': {
+    may: [...BASE, 'web/ui', 'web/stage', 'web/figures', 'web/figures/kit', 'web/element'],
+    packages: ['three', 'd3-array', 'd3-contour', GLTF],
+  },
 };
 
 /** Headers that would tie the core to one platform. */
@@ -89,6 +97,8 @@ export function lintLayers(files) {
       else if (ref.file) {
         const target = layerOf(ref.file) ?? ref.file;
         if (target !== folder && !layer.may.includes(target)) violations.push(`${where} use ${target} (${ref.text})`);
+        if (target === folder && layer.apart)
+          violations.push(`${file}:${ref.line}: a figure uses its kit, never another one (${ref.text})`);
       } else if (isScript(file) && isPackage(ref)) {
         if (!listed(ref.text, layer.packages) && !(ref.dynamic && listed(ref.text, layer.lazy)))
           violations.push(`${where} import ${ref.text}`);

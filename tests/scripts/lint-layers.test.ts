@@ -106,6 +106,16 @@ describe('violations that are caught', () => {
       /must not use web\/cli/,
     ],
     [
+      'a figure imports another one',
+      { 'web/figures/course/a.ts': "import './b.ts';\n", 'web/figures/course/b.ts': '' },
+      /a figure uses its kit, never another one/,
+    ],
+    [
+      'the kit imports a figure',
+      { 'web/figures/kit/a.ts': "import '../course/b.ts';\n", 'web/figures/course/b.ts': '' },
+      /web\/figures\/kit must not use web\/figures\/course/,
+    ],
+    [
       'a lesson imports the studio',
       { 'web/learn/a/main.ts': "import '../../studio/b.ts';\n", 'web/studio/b.ts': '' },
       /web\/learn must not use web\/studio/,

@@ -1,8 +1,14 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { load } from '../../wasm/ts/index.ts';
+import { ColorMap } from '../../web/figures/kit/color-map.ts';
+import { drawIsolines, levels } from '../../web/figures/kit/isolines.ts';
+import { curvePath, spreadLabels } from '../../web/figures/kit/path.ts';
+import { Samples } from '../../web/figures/kit/samples.ts';
+import { axisMarks, fromLog, toLog } from '../../web/figures/kit/scale.ts';
+import { pointsOn, roundRange, sectionOf, sectionSamples } from '../../web/figures/kit/section.ts';
+import { brief, conditionText, health } from '../../web/figures/kit/words.ts';
 import { fromAddress, toAddress } from '../../web/learn/interpolation/address.ts';
-import { ColorMap } from '../../web/learn/interpolation/color-map.ts';
 import {
   copyOf,
   emptiestPlace,
@@ -15,18 +21,12 @@ import {
 } from '../../web/learn/interpolation/experiment.ts';
 import { Fit } from '../../web/learn/interpolation/fit.ts';
 import { dataOf, isOffered, kindOf, modelOf } from '../../web/learn/interpolation/interpolants.ts';
-import { drawIsolines, levels } from '../../web/learn/interpolation/isolines.ts';
 import { weightedKernels } from '../../web/learn/interpolation/kernel-curves.ts';
 import { complete, parseSetting, settingText } from '../../web/learn/interpolation/parameter.ts';
-import { curvePath, spreadLabels } from '../../web/learn/interpolation/path.ts';
 import { PRESETS, presetOf } from '../../web/learn/interpolation/presets.ts';
 import { KERNEL_NAMES } from '../../web/learn/interpolation/rbf-kind.ts';
 import { outlierText, searchOutliers, summary } from '../../web/learn/interpolation/report.ts';
-import { Samples } from '../../web/learn/interpolation/samples.ts';
-import { axisMarks, fromLog, toLog } from '../../web/learn/interpolation/scale.ts';
-import { pointsOn, roundRange, sectionOf, sectionSamples } from '../../web/learn/interpolation/section.ts';
 import { remediesOf } from '../../web/learn/interpolation/warning-list.ts';
-import { brief, conditionText, health } from '../../web/learn/interpolation/words.ts';
 
 const seed = 20140;
 const hb = await load();

@@ -1,8 +1,8 @@
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import { bend, covered, finished, handleAt, passTime, picture, pngOf, rested, stoppableClock } from './support/gingerbread.ts';
-import { violations } from './support/manners.ts';
+import { focused, violations } from './support/manners.ts';
 import { difference, frames, launch, loseContext, soon } from './support/studio.ts';
 
 let browser: Browser;
@@ -49,14 +49,16 @@ describe('methods', () => {
   it('interior radial basis functions are prepared on demand, on both distances', async () => {
     const { page, said } = await bend(browser, '#shape=octopus&v=600&h=p:0,0.4~p:-0.44,-0.95,-0.4,0.1,0~p:0.44,-0.95');
     const before = await picture(page);
+    const first = page.waitForSelector('#note progress');
     await page.locator('.families input[value=irbf]').check();
-    await page.waitForSelector('#note progress');
+    await first;
     await rested(page);
     await finished(page);
     const interior = await picture(page);
     expect(difference(before, interior)).toBeGreaterThan(500);
+    const second = page.waitForSelector('#note progress');
     await page.getByRole('radio', { name: /^Euclidean/ }).check();
-    await page.waitForSelector('#note progress');
+    await second;
     await rested(page);
     await finished(page);
     expect(difference(interior, await picture(page))).toBeGreaterThan(300);
@@ -68,10 +70,32 @@ describe('methods', () => {
     const { page } = await bend(browser, '#shape=man&v=6000');
     const before = await picture(page);
     await page.locator('.families input[value=irbf]').check();
-    await page.getByRole('button', { name: 'Cancel' }).click();
+    await page.getByRole('button', { name: 'Cancel' }).press('Enter');
     await soon(() => page.locator('#note').isHidden()).toBe(true);
+    expect(await focused(page)).toBe('Linear');
     expect(difference(before, await picture(page))).toBeLessThan(20);
     expect(await page.locator('#trouble').isVisible()).toBe(false);
+    // The choice is what the picture is of, and can be made again.
+    expect(await page.locator('.families input:checked').inputValue()).toBe('linear');
+    expect(await page.locator('.kinds input:checked').inputValue()).toBe('linear-bounded');
+    await page.locator('.families input[value=irbf]').check();
+    await page.getByRole('button', { name: 'Cancel' }).waitFor();
+  });
+
+  it('what is asked for while something else is being prepared comes, another shape too', async () => {
+    const { page } = await bend(browser, '#shape=bar&v=600');
+    await page.locator('.families input[value=irbf]').check();
+    await page.getByRole('radio', { name: /^Euclidean/ }).check();
+    await rested(page);
+    expect(await page.locator('.tile[aria-current]').getAttribute('data-method')).toBe('irbf-euclidean');
+    await finished(page);
+    expect(await page.locator('.tile[data-method=irbf-euclidean][data-drawn]').count()).toBe(1);
+    const third = page.waitForSelector('#note progress');
+    await page.locator('input[name=shape][value=ring]').check();
+    await third;
+    await rested(page);
+    await finished(page);
+    expect(await page.locator('.tile[data-method=irbf-euclidean][data-drawn]').count()).toBe(1);
   });
 
   it('the weight of the picked handle is shown in colors, and triangles when asked', async () => {
@@ -171,6 +195,23 @@ describe('shapes of one’s own', () => {
     const middle = 4 * (Math.floor(shape.height / 2) * shape.width + Math.floor(shape.width / 2));
     // Through the hole the ground is seen.
     expect(Math.max(...shape.data.slice(middle, middle + 3)) - Math.min(...shape.data.slice(middle, middle + 3))).toBeLessThan(20);
+  });
+
+  it('are pasted, with ten thousand points', async () => {
+    const { page, said } = await bend(browser, '#bar');
+    await page.locator('input[name=shape][value=own]').check();
+    await page.locator('.own summary').click();
+    const angles = Array.from({ length: 10_000 }, (_, i) => (2 * Math.PI * i) / 10_000);
+    const text = angles.map((angle) => `${Math.cos(angle)} ${(0.7 + 0.1 * Math.cos(9 * angle)) * Math.sin(angle)}`).join('\n');
+    await page.locator('.own textarea').evaluate((area: HTMLTextAreaElement, pasted) => {
+      area.value = pasted;
+    }, text);
+    await page.locator('#use-typed').click();
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
+    await rested(page);
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    expect(await page.locator('.handle.start').count()).toBe(4);
+    expect(said).toEqual([]);
   });
 
   const open = async (page: Page, name: string, buffer: Buffer, mimeType: string) => {
@@ -293,5 +334,60 @@ describe('manners', () => {
     await still.page.getByRole('button', { name: 'Dance' }).click();
     await frames(still.page, 2);
     expect(await handleAt(still.page, 2)).toEqual(struck);
+  });
+});
+
+describe('what does not come', () => {
+  const retry = (page: Page) => page.getByRole('button', { name: 'Try again' });
+
+  it('the solver: the shape stands there, and bends after another try', async () => {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce' });
+    onTestFinished(() => context.close());
+    const page = await context.newPage();
+    // It is asked for when the shape is drawn.
+    await page.route('**/*.js', async (route) => {
+      const state = await page.evaluate(() => document.getElementById('lesson')?.dataset.state).catch(() => undefined);
+      if (state === 'drawn') await route.abort();
+      else await route.continue();
+    });
+    await page.goto(`${inject('site')}learn/gingerbread/#ring`);
+    await retry(page).waitFor();
+    expect(await page.locator('#lesson').getAttribute('data-state')).toBe('drawn');
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    await page.unrouteAll();
+    await retry(page).click();
+    await page.waitForSelector('#lesson[data-state=ready]');
+    await rested(page);
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+  });
+
+  it('what measures distances: the method is again the one that is shown, and comes after another try', async () => {
+    const { page } = await bend(browser, '#shape=bar&v=600', { reducedMotion: 'reduce', locale: 'en' });
+    await page.route('**/interior-*.js', (route) => route.abort(), { times: 1 });
+    await page.locator('.families input[value=irbf]').check();
+    await soon(() => trouble(page)).toMatch(/measures distances could not be fetched/);
+    expect(await page.locator('.families input:checked').inputValue()).toBe('linear');
+    await rested(page);
+    await retry(page).click();
+    await soon(() => page.locator('.caption strong').textContent()).toBe('IRBF, interior');
+    await rested(page);
+    await finished(page);
+    expect(await page.locator('.tile[data-method=irbf-interior][data-drawn]').count()).toBe(1);
+    // And where no second thread starts, it is said that the page does the work itself.
+    await page.route('**/bake-worker-*.js', (route) => route.abort());
+    await page.getByRole('radio', { name: /^Euclidean/ }).check();
+    await soon(() => trouble(page)).toMatch(/^No second thread could be started/);
+    await rested(page);
+    await finished(page);
+    expect(await page.locator('.tile[data-method=irbf-euclidean][data-drawn]').count()).toBe(1);
+  });
+
+  it('what opens pictures: the same file is opened by another try', async () => {
+    const { page } = await bend(browser, '#ring', { reducedMotion: 'reduce', locale: 'en' });
+    await page.route('**/open-picture-*.js', (route) => route.abort(), { times: 1 });
+    const square = pngOf(60, 60, (x, y) => [30, 90, 220, x > 5 && x < 55 && y > 5 && y < 55 ? 255 : 0]);
+    await page.setInputFiles('#file', { name: 'square.png', mimeType: 'image/png', buffer: square });
+    await retry(page).click();
+    await soon(() => page.locator('#title').textContent()).toBe('Your own shape');
   });
 });

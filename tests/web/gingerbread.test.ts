@@ -2,7 +2,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import { bend, covered, finished, handleAt, picture, rested, spoken } from './support/gingerbread.ts';
-import { cramped, violations } from './support/manners.ts';
+import { cramped, focused, violations } from './support/manners.ts';
 import { difference, frames, launch, PHONE, soon, swipe } from './support/studio.ts';
 
 let browser: Browser;
@@ -275,4 +275,111 @@ describe('handles', () => {
     await rested(page);
     expect(await page.locator('#trouble').isVisible()).toBe(false);
   });
+});
+
+describe('the focus', () => {
+  it('goes to a neighbor of a handle that is deleted, at last to what adds one', async () => {
+    const { page } = await bend(browser, '#shape=bar&h=p:-1,0~b:-0.6,0,-0.2,0~p:0.3,0~b:0.5,0,0.9,0~p:1,0');
+    await page.locator('.handle.start').nth(2).focus();
+    await page.keyboard.press('Delete');
+    expect(await focused(page)).toMatch(/^Bone 2,/);
+    await page.locator('.handle.start').nth(3).focus();
+    await page.keyboard.press('Delete');
+    expect(await focused(page)).toMatch(/^Bone 2,/);
+    await page.locator('.handle.end[data-handle="1"]').focus();
+    await page.keyboard.press('Backspace');
+    expect(await focused(page)).toMatch(/^Bone 1,/);
+    for (const label of [/^Handle 0,/, /^Add a point$/]) {
+      await page.locator('#tools button', { hasText: /^Remove/ }).click();
+      expect(await focused(page)).toMatch(label);
+    }
+  });
+
+  it('shows a handle that is beside the picture at its rim, and Home brings it back', async () => {
+    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16,9,0,0~p:0,-0.1');
+    const far = page.locator('.handle.start').nth(1);
+    const opacity = () => far.evaluate((element) => getComputedStyle(element).opacity);
+    expect(await opacity()).toBe('0');
+    await far.focus();
+    expect(await opacity()).toBe('1');
+    const [box, area] = [await far.boundingBox(), await page.locator('#picture').boundingBox()];
+    expect((box?.x ?? 0) + (box?.width ?? 0)).toBeLessThanOrEqual((area?.x ?? 0) + (area?.width ?? 0));
+    await page.keyboard.press('Home');
+    await frames(page, 2);
+    expect(await spoken(page, 1)).toEqual([0.72, 0.16, 0]);
+  });
+
+  it('stays in a group of choices under the arrow keys', async () => {
+    const { page } = await bend(browser, '#ring');
+    await page.locator('input[name=shape]:checked').focus();
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowRight');
+    expect(await page.locator('.own').isVisible()).toBe(true);
+    expect(await focused(page)).toBe('Your own');
+    await page.keyboard.press('Escape');
+    expect(await page.locator('.own').isVisible()).toBe(false);
+    expect(await page.locator('input[name=shape]:checked').inputValue()).toBe('octopus');
+    await page.locator('input[name=shape][value=own]').check();
+    await page.getByRole('button', { name: 'Cancel' }).press('Enter');
+    expect(await focused(page)).toBe('Octopus');
+  });
+});
+
+describe('links', () => {
+  it.each([
+    ['crosses itself', '0,0,1000,1000,1000,0,0,1000', /cross or touch\. Check/],
+    ['is cut short', '0,0,1000,0', /encloses nothing/],
+    ['is no size at all', '0,0,1e-300,0,0,1e-300', /encloses no area/],
+    ['is larger than anything', '0,0,1e300,0,0,1e300', /^Left out of this link/],
+  ])('with an outline that %s: the man stands in, and everything works', async (_, outline, told) => {
+    const { page, said } = await bend(browser, `#shape=own&o=${outline}&m=rigid-harmonic&show=mesh`);
+    expect(await trouble(page)).toMatch(told);
+    expect(await page.locator('#title').textContent()).toBe('Gingerbread man');
+    expect(await page.locator('#show-mesh').isChecked()).toBe(true);
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    await page.locator('input[name=shape][value=ring]').check();
+    await rested(page);
+    expect(await page.locator('#title').textContent()).toBe('Ring');
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    expect(await page.evaluate(() => location.hash)).toBe('#shape=ring&m=rigid-harmonic');
+    expect(said).toEqual([]);
+  });
+
+  it('that are partly wrong open as far as they are right, by hand too', async () => {
+    const { page, said } = await bend(browser, '#shape=bar&foo=1&m=none&h=q:1~p:0,0');
+    expect(await trouble(page)).toMatch(/^Left out of this link.*“foo=1”, “m=none”, “q:1”\. The rest is shown\./);
+    expect(await page.locator('.handle.start').count()).toBe(1);
+    await page.evaluate(() => {
+      location.hash = '#octopus';
+    });
+    await soon(() => page.locator('#title').textContent()).toBe('Octopus');
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    expect(said).toEqual([]);
+  });
+
+  it.each([
+    ['a move of 1e300', 'p:0,0.62,1e300,0,0~p:0,-0.1', /Write finite numbers/],
+    ['a place of 1e300', 'p:1e300,0.62~p:0,-0.1', /outside the shape/],
+    ['numbers of 1e-300', 'p:1e-300,0.62,1e-300,0,1e-300~p:0,-0.1', /^$/],
+    ['no handle', '', /^$/],
+    [
+      'ten thousand handles',
+      Array.from({ length: 10_000 }, (_, i) => `p:0,${(i % 24) / 30 - 0.3}`).join('~'),
+      /9,976 of 10,000 handles/,
+    ],
+  ])('with %s: drawn or said', async (_, handles, told) => {
+    const { page, said } = await bend(browser, `#shape=man&h=${handles}`);
+    expect(await trouble(page)).toMatch(told);
+    expect(covered(await picture(page))).toBeGreaterThan(8000);
+    expect(said).toEqual([]);
+  });
+});
+
+it('a link that cannot be copied is shown, selected', async () => {
+  const before = () => Object.defineProperty(navigator, 'clipboard', { value: undefined });
+  const { page } = await bend(browser, '#ring', { before });
+  await page.locator('#copy').click();
+  await page.getByRole('dialog', { name: 'Copy the link by hand' }).waitFor();
+  expect(await page.evaluate(() => getSelection()?.toString())).toBe(page.url());
+  expect(await page.locator('#copy').textContent()).toBe('Not copied');
 });

@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { difference, frames, launch, PHONE, picture, soon, specks, swipe, visit } from './support/studio.ts';
+import { difference, fingers, frames, launch, PHONE, picture, soon, specks, swipe, visit } from './support/studio.ts';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -96,6 +96,59 @@ describe('the emotion pad', () => {
     await soon(async () => difference(before, await picture(page))).toBeGreaterThan(500);
     // The place is read out once the puck has rested.
     await soon(() => page.locator('[aria-live=polite]').textContent()).toMatch(/^valence −1\.00, arousal −0\.\d\d/);
+  });
+
+  it('has the steps of every handle: Shift a fifth, Page ten; Esc takes them back', async () => {
+    const { page } = await visit(browser, { hash: '#face', reducedMotion: 'reduce' });
+    for (const name of ['Valence', 'Arousal']) {
+      const slider = page.getByRole('slider', { name });
+      await slider.focus();
+      const step = async (key: string) => {
+        const before = Number(await slider.inputValue());
+        await page.keyboard.press(key);
+        return Number(await slider.inputValue()) - before;
+      };
+      for (const [forth, back] of [
+        ['ArrowRight', 'ArrowLeft'],
+        ['ArrowUp', 'ArrowDown'],
+      ] as const) {
+        expect(await step(forth)).toBeCloseTo(0.01, 6);
+        expect(await step(back)).toBeCloseTo(-0.01, 6);
+        expect(await step(`Shift+${forth}`)).toBeCloseTo(0.002, 6);
+      }
+      expect(await step('PageUp')).toBeCloseTo(0.1, 6);
+      expect(await step('PageDown')).toBeCloseTo(-0.1, 6);
+      expect(await place(page)).toContain('0.004');
+      await page.keyboard.press('Escape');
+      expect(Number(await slider.inputValue())).toBe(0);
+    }
+    expect(await place(page)).toBe('valence 0.00, arousal 0.00, neutral');
+  });
+
+  it('is not disturbed by a second finger while the puck is held', async () => {
+    const { page } = await visit(browser, { hash: '#face', ...PHONE });
+    const touch = await fingers(page);
+    const pad = await page.locator('.pad').boundingBox();
+    if (!pad) throw new Error('there is no pad');
+    const [x, y] = [pad.x + pad.width / 2, pad.y + pad.height / 2];
+    const held = [x + 30, y - 40, 1] as const;
+    await touch('touchStart', [x, y, 1]);
+    await touch('touchMove', held);
+    await frames(page, 2);
+    const before = await place(page);
+    expect(before).not.toMatch(/^valence 0.00/);
+    for (const [otherX, otherY] of [
+      [x - 60, y + 60],
+      [200, 200],
+    ] as const) {
+      await touch('touchStart', held, [otherX, otherY, 2]);
+      for (let i = 1; i <= 5; i++) await touch('touchMove', held, [otherX + 14 * i, otherY + 6 * i, 2]);
+      await touch('touchMove', held);
+      await frames(page, 2);
+      expect(await place(page)).toBe(before);
+    }
+    await touch('touchEnd');
+    expect(await page.evaluate(() => [visualViewport?.scale, scrollY])).toEqual([1, 0]);
   });
 
   it('is steered by a finger on the puck; a finger beside it scrolls the page or taps', async () => {

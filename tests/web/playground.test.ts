@@ -1,7 +1,8 @@
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { PRESETS } from '../../web/learn/interpolation/presets.ts';
-import { cramped, violations } from './support/manners.ts';
+import { embedded } from './support/embedded.ts';
+import { cramped, focused, violations } from './support/manners.ts';
 import { colorsOf, curveDistances, play, rested, said as spoken, spot } from './support/playground.ts';
 import { difference, frames, launch, PHONE, soon, swipe } from './support/studio.ts';
 
@@ -115,6 +116,31 @@ describe('points on a line', () => {
     expect(await page.evaluate(() => location.hash)).toMatch(/^#from=fig-9&p=/);
   });
 
+  it('stay under the finger that holds them whatever another one does, and where they are when the window is lost', async () => {
+    const { page } = await play(browser, '#fig-9', PHONE);
+    const [held, other] = [await spot(page, 3), await spot(page, 5)];
+    const cdp = await page.context().newCDPSession(page);
+    const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number; id: number }[]) =>
+      cdp.send('Input.dispatchTouchEvent', { type, touchPoints });
+    const first = { x: held.x + 10, y: held.y + 40, id: 0 };
+    await send('touchStart', { ...held, id: 0 });
+    await send('touchMove', first);
+    await send('touchStart', first, { ...other, id: 1 });
+    for (let i = 1; i <= 5; i++) {
+      await send('touchMove', first, { x: other.x, y: other.y - 12 * i, id: 1 });
+      await frames(page, 1);
+    }
+    expect(await spot(page, 5)).toEqual(other);
+    const now = await spot(page, 3);
+    expect(Math.hypot(now.x - first.x, now.y - first.y)).toBeLessThan(2);
+    await page.evaluate(() => dispatchEvent(new Event('blur')));
+    await send('touchMove', { ...first, y: first.y + 60 }, { ...other, id: 1 });
+    await send('touchEnd');
+    await rested(page);
+    expect(await spot(page, 3)).toEqual(now);
+    expect(await page.evaluate(() => document.querySelectorAll('[data-dragging]').length)).toBe(0);
+  });
+
   it('are moved by the keyboard: steps, fine and coarse ones, taken back by Esc, removed by Delete', async () => {
     const { page } = await play(browser, '#fig-9');
     const point = page.locator('.point').nth(1);
@@ -134,9 +160,9 @@ describe('points on a line', () => {
     await press('ArrowUp');
     expect(await read()).toEqual([2.3, 2.65]);
     await press('Shift+ArrowLeft');
-    expect(await read()).toEqual([2.29, 2.65]);
+    expect(await read()).toEqual([2.28, 2.65]);
     await press('PageUp');
-    expect(await read()).toEqual([2.29, 3.15]);
+    expect(await read()).toEqual([2.28, 3.15]);
     expect((await curveDistances(page, await spot(page, 1)))[0]).toBeLessThan(1);
     await press('Escape');
     expect(await read()).toEqual([2.2, 2.6]);
@@ -510,5 +536,252 @@ describe('manners', () => {
     await page.getByRole('link', { name: /Compare interpolants/ }).click();
     await page.waitForSelector('#playground[data-state=ready]');
     await page.close();
+  });
+});
+
+describe('the focus', () => {
+  it.each(['#line', '#plane'])('%s: goes to a neighbor of what is deleted by key, × or button, never to nothing', async (hash) => {
+    const { page } = await play(browser, hash);
+    const points = page.locator('.point:not([aria-hidden])');
+    const count = await points.count();
+    await points.nth(2).focus();
+    await page.keyboard.press('Delete');
+    await rested(page);
+    expect(await focused(page)).toMatch(/^Point 2,/);
+    await points.nth(count - 2).focus();
+    await page.keyboard.press('Delete');
+    await rested(page);
+    expect(await focused(page)).toMatch(new RegExp(`^Point ${count - 3},`));
+    await page.locator('#tools button', { hasText: `Remove point ${count - 3}` }).click();
+    await rested(page);
+    expect(await focused(page)).toMatch(new RegExp(`^Point ${count - 4},`));
+
+    await page.locator('.points-part summary').click();
+    const rows = page.locator('.points-table tbody tr');
+    await rows.last().locator('button').focus();
+    await page.keyboard.press('Enter');
+    await rested(page);
+    expect(await focused(page)).toBe(`Remove point ${count - 5}`);
+    while ((await rows.count()) > 1) {
+      await rows.first().locator('button').focus();
+      await page.keyboard.press('Enter');
+      await frames(page, 2);
+    }
+    // The last row cannot be removed.
+    expect(await focused(page)).toBe('Add a point');
+  });
+
+  it('goes from card to card as they are removed, and from a remedy to the next', async () => {
+    const { page } = await play(browser, '#line');
+    const names = await page.locator('.card .name').allTextContents();
+    for (const [remove, next] of [
+      [1, 2],
+      [5, 4],
+    ] as const) {
+      await page.getByRole('button', { name: new RegExp(`^Remove ${names[remove]}`) }).focus();
+      await page.keyboard.press('Enter');
+      await rested(page);
+      expect(await focused(page)).toContain(names[next]);
+    }
+    const cards = page.locator('.card');
+    while ((await cards.count()) > 0) {
+      await cards
+        .first()
+        .getByRole('button', { name: /^Remove/ })
+        .press('Enter');
+      await rested(page);
+    }
+    expect(await focused(page)).toBe('Add an interpolant');
+    const { page: warned } = await play(browser, '#fig-15');
+    await warned.getByRole('button', { name: 'Use width 2.2' }).press('Enter');
+    await rested(warned);
+    expect(await focused(warned)).toMatch(/^Gaussian/);
+  });
+
+  it('shows a point that is beside the picture at its rim', async () => {
+    const { page } = await play(browser, '#from=line&in=2,7,0,3');
+    const first = page.locator('.point').first();
+    const area = await page.locator('.main-chart .chart-area').boundingBox();
+    if (!area) throw new Error('there is no chart');
+    const opacity = () => first.evaluate((element) => getComputedStyle(element).opacity);
+    expect(await opacity()).toBe('0');
+    await first.focus();
+    expect(await opacity()).toBe('1');
+    const box = await first.boundingBox();
+    expect(box?.x).toBeGreaterThanOrEqual(area.x);
+    expect((box?.x ?? 0) + (box?.width ?? 0)).toBeLessThan(area.x + area.width);
+    const at = await spot(page, 0);
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    await page.mouse.move(at.x + 60, at.y, { steps: 3 });
+    await page.mouse.up();
+    await rested(page);
+    const now = await spot(page, 0);
+    expect(Math.hypot(now.x - at.x - 60, now.y - at.y)).toBeLessThan(2);
+  });
+});
+
+describe('a copied link', () => {
+  it('is told on the button', async () => {
+    const { page } = await play(browser, '#fig-9', { permissions: ['clipboard-read', 'clipboard-write'] });
+    await page.locator('#copy').click();
+    await soon(() => page.locator('#copy').textContent()).toBe('Copied');
+    expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(page.url());
+    await soon(() => page.locator('#copy').textContent()).toBe('Copy link');
+  });
+
+  it('is shown, selected, where there is no clipboard', async () => {
+    const before = () => Object.defineProperty(navigator, 'clipboard', { value: undefined });
+    const { page, said } = await play(browser, '#fig-9', { ...PHONE, before });
+    await page.locator('.point').first().focus();
+    await page.keyboard.press('ArrowUp');
+    await page.locator('#copy').click();
+    const sheet = page.getByRole('dialog', { name: 'Copy the link by hand' });
+    await sheet.waitFor();
+    expect(await page.locator('#copy').textContent()).toBe('Not copied');
+    expect(await page.evaluate(() => getSelection()?.toString())).toBe(page.url());
+    expect(page.url()).toMatch(/from=fig-9&p=1,1\.25/);
+    expect(await sheet.getByRole('textbox').evaluate((field: HTMLInputElement) => field.readOnly)).toBe(true);
+    expect(await violations(page)).toEqual([]);
+    expect(await cramped(page)).toEqual([]);
+    await page.keyboard.press('Escape');
+    await sheet.waitFor({ state: 'detached' });
+    expect(await focused(page)).toBe('Copy link');
+    expect(said).toEqual([]);
+  });
+
+  it('is our own in the frame of another site, which shows its own address', async () => {
+    const address = `${inject('site')}learn/interpolation/#fig-9`;
+    const frame = await embedded(browser, address);
+    await frame.waitForSelector('#playground[data-rest=yes]', { timeout: 60_000 });
+    await frame.locator('#copy').click();
+    const field = frame.getByRole('textbox', { name: /^Link/ });
+    await field.waitFor();
+    expect(await field.inputValue()).toBe(address);
+    expect(await frame.locator('#copy').textContent()).toBe('Not copied');
+  });
+});
+
+describe('what does not come', () => {
+  const retry = (page: Page) => page.getByRole('button', { name: 'Try again' });
+
+  it('leaves the line where the plane was asked for, and comes when it is asked for again', async () => {
+    const { page, said } = await play(browser, '#fig-9', PHONE);
+    await page.route('**/plane-view-*.js', (route) => route.abort(), { times: 1 });
+    await page.getByRole('radio', { name: 'In the plane' }).check();
+    await soon(() => page.locator('#trouble').textContent()).toMatch(/could not be fetched\. Check/);
+    expect(await page.getByRole('radio', { name: 'On a line' }).isChecked()).toBe(true);
+    expect(await page.locator('#title').textContent()).toMatch(/Shepard/);
+    expect(await page.locator('.main-chart').isVisible()).toBe(true);
+    expect(await violations(page)).toEqual([]);
+    await rested(page);
+    expect(await page.evaluate(() => location.hash)).toBe('#fig-9');
+    await retry(page).click();
+    await page.locator('.field').first().waitFor();
+    await rested(page);
+    expect(await page.getByRole('radio', { name: 'In the plane' }).isChecked()).toBe(true);
+    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    expect(await page.evaluate(() => location.hash)).toBe('#plane');
+    expect(said.filter((text) => !/ERR_FAILED/.test(text))).toEqual([]);
+  });
+
+  it('is not shown any more where one has gone back before it came', async () => {
+    const { page, said } = await play(browser, '#fig-9', { reducedMotion: 'reduce' });
+    let free = () => {};
+    const held = new Promise<void>((resolve) => {
+      free = resolve;
+    });
+    await page.route('**/plane-view-*.js', async (route) => {
+      await held;
+      await route.continue();
+    });
+    await page.getByRole('radio', { name: 'In the plane' }).check();
+    await page.getByRole('radio', { name: 'On a line' }).check();
+    await rested(page);
+    free();
+    await page.waitForTimeout(500);
+    expect(await page.locator('.main-chart').isVisible()).toBe(true);
+    expect(await page.locator('#title').textContent()).toMatch(/Shepard/);
+    await page.getByRole('radio', { name: 'In the plane' }).check();
+    await page.locator('.field').first().waitFor();
+    expect(said).toEqual([]);
+  });
+
+  it('is told in place where a link asks for it, and nothing else stands there', async () => {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+    onTestFinished(() => context.close());
+    const page = await context.newPage();
+    await page.route('**/plane-view-*.js', (route) => route.abort(), { times: 1 });
+    await page.goto(`${inject('site')}learn/interpolation/#fig-20`);
+    await retry(page).waitFor();
+    expect(await page.locator('#picture').evaluate((picture) => picture.childElementCount)).toBe(0);
+    expect(await page.locator('.card').count()).toBe(3);
+    await page.getByRole('radio', { name: 'On a line' }).check();
+    await page.locator('.main-chart').waitFor();
+    await rested(page);
+    await page.goBack();
+    await page.locator('.field').first().waitFor();
+    await rested(page);
+    expect(await page.locator('#title').textContent()).toMatch(/Four corners/);
+  });
+
+  it.each(['surfaces', 'three'])('surfaces: without %s the maps stay, with another try they come', async (part) => {
+    const { page } = await play(browser, '#plane', { reducedMotion: 'reduce' });
+    await page.route(`**/${part}-*.js`, (route) => route.abort());
+    const box = page.getByLabel('Surfaces instead of maps');
+    await box.check();
+    await retry(page).waitFor();
+    expect(await box.isChecked()).toBe(false);
+    expect(await colorsOf(page, 0)).toBeGreaterThan(12);
+    await page.unrouteAll();
+    await retry(page).click();
+    await page.locator('.plane-view[data-surface]').waitFor();
+    expect(await box.isChecked()).toBe(true);
+  });
+});
+
+describe('links', () => {
+  it('that are partly wrong open as far as they are right, and say what was left out', async () => {
+    const { page, said } = await play(browser, '#from=fig-9&foo=1&p=1,2;x,3;4,5&m=shepard:power=1:hat=2');
+    expect(await page.locator('.point').count()).toBe(2);
+    expect(await page.locator('.card .detail').textContent()).toBe('p = 1');
+    const told = page.locator('#trouble');
+    expect(await told.textContent()).toMatch(/^Left out of this link.*“foo=1”, 1 of 3 points, “hat=2”\. The rest is shown\./);
+    await page.getByRole('button', { name: 'Dismiss this message' }).click();
+    expect(await told.isVisible()).toBe(false);
+    expect(await focused(page)).not.toBe('');
+    // By hand, and by a link to the same page.
+    await page.evaluate(() => {
+      location.hash = '#nonsense';
+    });
+    await soon(() => told.textContent()).toMatch(/“nonsense”/);
+    await rested(page);
+    expect(await page.locator('.card').count()).toBe(6);
+    await page.evaluate(() => {
+      location.hash = '#fig-16';
+    });
+    await soon(() => page.locator('#title').textContent()).toMatch(/natural cubic/);
+    expect(await told.isVisible()).toBe(false);
+    expect(said).toEqual([]);
+  });
+
+  const many = Array.from({ length: 10_000 }, (_, i) => `${i / 1000},${i % 3}`).join(';');
+  it.each([
+    ['ten thousand points', `#p=${many}`, 60, /9,940 of 10,000 points/],
+    ['an empty set of points', '#p=', 7, /“p=”/],
+    ['an empty set of interpolants', '#m=', 7, /^$/],
+    ['values of 1e300', '#p=1,1e300;2,-1e300;3,5', 3, /^$/],
+    ['places of 1e300', '#p=1e300,1;2,2;-1e300,3', 3, /^$/],
+    ['numbers of 1e-300', '#p=1e-300,1e-300;2e-300,3e-300;4e-300,1e-300', 3, /^$/],
+    ['values of 1e300 in the plane', '#from=plane&p=0,0,1e300;1,1,-1e300;0.5,0,3&show=section.diagonal', 3, /^$/],
+    ['places of 1e300 in the plane', '#from=plane&p=0,0,1;1e300,1,2;0.5,1e300,3&show=section.across', 3, /^$/],
+    ['one value throughout the plane', '#from=plane&p=0,0,1e300;1,1,1e300;1,0,1e300&show=section.up', 3, /^$/],
+  ])('%s: are drawn or said', async (_, hash, count, told) => {
+    const { page, said } = await play(browser, hash);
+    expect(await page.locator('.point:not([aria-hidden])').count()).toBe(count);
+    expect(await page.locator('.point:not([aria-hidden])[data-outside]').count()).toBe(0);
+    expect(await page.locator('#trouble').textContent()).toMatch(told);
+    for (const card of await page.locator('.card').all()) expect(await card.innerText()).toMatch(/points|\.$/);
+    expect(said).toEqual([]);
   });
 });

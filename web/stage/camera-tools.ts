@@ -24,13 +24,14 @@ export function cameraTools(view: View, frame: HTMLElement): HTMLElement {
     Home: () => view.home(),
   };
   frame.tabIndex = 0;
-  frame.addEventListener('keydown', (event) => {
+  const press = (event: KeyboardEvent) => {
     if (event.target !== frame || event.ctrlKey || event.metaKey || event.altKey) return;
     const act = keys[event.key];
     if (!act) return;
     event.preventDefault();
     act();
-  });
+  };
+  frame.addEventListener('keydown', press, { signal: view.signal });
   const icon = (path: string) => {
     const template = document.createElement('template');
     template.innerHTML = `<svg viewBox="0 0 20 20" aria-hidden="true"><path d="${path}"/></svg>`;
@@ -44,17 +45,5 @@ export function cameraTools(view: View, frame: HTMLElement): HTMLElement {
       button.append(icon(path));
       return button;
     }),
-  );
-}
-
-/** On the phone layout the wheel scrolls the page and Ctrl with it zooms; on the desktop the page does not scroll and it just zooms. */
-export function freeTheWheel(frame: HTMLElement): void {
-  frame.addEventListener(
-    'wheel',
-    (event) => {
-      const scrolls = document.documentElement.scrollHeight > document.documentElement.clientHeight + 1;
-      if (scrolls && !event.ctrlKey) event.stopImmediatePropagation();
-    },
-    { capture: true, passive: true },
   );
 }

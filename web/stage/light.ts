@@ -65,6 +65,12 @@ export class StudioLight {
     this.#ground.material.opacity = value ? 0.45 : 0.17;
   }
 
+  dispose(): void {
+    for (const lamp of [this.#sky, this.#key, this.#second]) lamp.dispose();
+    this.#ground.geometry.dispose();
+    this.#ground.material.dispose();
+  }
+
   castFrom(object: Object3D): void {
     object.traverse((part) => {
       part.castShadow = true;

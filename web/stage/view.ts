@@ -14,8 +14,10 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
 import { PageError } from '../ui/page-error.ts';
+import { onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
 import { disposeObject } from './dispose-object.ts';
 import { fitCamera } from './fit-camera.ts';
+import { keepTwoFingers, shareWheel } from './gestures.ts';
 import { StudioLight } from './light.ts';
 import { settleDepth } from './settle-depth.ts';
 
@@ -32,21 +34,24 @@ export class View {
   readonly controls: OrbitControls;
   /** Called after each frame with the camera's matrices up to date. */
   onDrawn: () => void = () => {};
-  onLost: (lost: boolean) => void = () => {};
+  /** Gets a sentence while the graphics card is interrupted, and none when it is back. */
+  onInterrupted: (words: string) => void = () => {};
   readonly #scene = new Scene();
   readonly #renderer: WebGLRenderer;
-  readonly #frame: HTMLElement;
+  readonly #area: HTMLElement;
   readonly #steps = new Set<Step>();
+  readonly #left = new AbortController();
   #object: Object3D | undefined;
   #home: { position: Vector3; target: Vector3 } | undefined;
-  #scheduled = false;
+  /** The frame that is asked for. */
+  #frame = 0;
   #last = 0;
   /** The last frame asked for this one, so the time between them passed in a movement. */
   #awake = false;
 
-  /** `frame` is the element that holds exactly the canvas; pointers on it turn the camera. Throws when there is no WebGL. */
-  constructor(canvas: HTMLCanvasElement, frame: HTMLElement) {
-    this.#frame = frame;
+  /** `area` is the element that holds exactly the canvas; pointers on it turn the camera. Throws when there is no WebGL. */
+  constructor(canvas: HTMLCanvasElement, area: HTMLElement) {
+    this.#area = area;
     const attributes = { alpha: true, antialias: true, depth: true, stencil: false, premultipliedAlpha: true };
     const context = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
     if (!context) {
@@ -63,34 +68,37 @@ export class View {
     this.#renderer.shadowMap.autoUpdate = false;
     this.#scene.add(this.light.group);
 
-    this.controls = new OrbitControls(this.camera, frame);
+    const { signal } = this;
+    shareWheel(area, signal);
+    this.controls = new OrbitControls(this.camera, area);
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN };
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener('change', () => this.invalidate());
     // The style sheet decides which touches scroll the page: see .viewport.
-    frame.style.touchAction = '';
+    area.style.touchAction = '';
+    keepTwoFingers(area, this.controls, signal);
+
     const damp = () => {
       this.controls.enableDamping = !reducedMotion();
     };
     damp();
-    onMotionChange(damp);
+    onMotionChange(damp, signal);
 
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const theme = () => {
-      this.light.dark = dark.matches;
-      this.invalidate();
-    };
-    theme();
-    dark.addEventListener('change', theme);
+    onInterruption(
+      canvas,
+      (words) => this.onInterrupted(words),
+      () => this.changed(),
+      signal,
+    );
+    onScreenChange(area, () => this.#layout(), signal);
+    onPaper(canvas, () => this.#paint(), signal);
+    this.#layout();
+  }
 
-    canvas.addEventListener('webglcontextlost', () => this.onLost(true));
-    canvas.addEventListener('webglcontextrestored', () => {
-      this.onLost(false);
-      this.changed();
-    });
-    new ResizeObserver(() => this.#resize()).observe(frame);
-    this.#resize();
+  /** Aborts when the view is left. */
+  get signal(): AbortSignal {
+    return this.#left.signal;
   }
 
   /** Shows an object in place of the former one. */
@@ -160,9 +168,7 @@ export class View {
 
   /** Asks for a frame. */
   invalidate(): void {
-    if (this.#scheduled) return;
-    this.#scheduled = true;
-    requestAnimationFrame((now) => this.#draw(now));
+    if (!this.signal.aborted) this.#frame ||= requestAnimationFrame((now) => this.#draw(now));
   }
 
   /** Runs `step` before every frame until it says that it is done. */
@@ -173,6 +179,19 @@ export class View {
 
   stop(step: Step): void {
     this.#steps.delete(step);
+  }
+
+  /** Leaves nothing behind: no listener, no frame, no memory of the graphics card. */
+  dispose(): void {
+    this.#left.abort();
+    cancelAnimationFrame(this.#frame);
+    this.#steps.clear();
+    this.controls.dispose();
+    if (this.#object) disposeObject(this.#object);
+    this.light.dispose();
+    this.#renderer.dispose();
+    // What the context holds by itself goes with the canvas; its pixels go now.
+    this.#renderer.setSize(1, 1, false);
   }
 
   /** Calls `move` with the parts of a movement that add up to 1. */
@@ -194,13 +213,15 @@ export class View {
   }
 
   #draw(now: number): void {
-    this.#scheduled = false;
+    this.#frame = 0;
     // After a sleep the pause is no time that passed in a movement.
     const seconds = this.#awake ? Math.min((now - this.#last) / 1000, 1 / 4) : 1 / 60;
     this.#last = now;
     for (const step of [...this.#steps]) if (!step(seconds)) this.#steps.delete(step);
     this.controls.update();
-    this.#paint();
+    // Browsers do not always say that the window has gone to a screen with other pixels.
+    if (this.#renderer.getPixelRatio() === pixelRatio()) this.#paint();
+    else this.#layout();
     this.#awake = this.#steps.size > 0;
     if (this.#awake) this.invalidate();
   }
@@ -210,14 +231,22 @@ export class View {
     this.onDrawn();
   }
 
-  #resize(): void {
-    const [width, height] = [this.#frame.clientWidth, this.#frame.clientHeight];
+  /** Takes size, pixels and theme as the page has them now. */
+  #layout(): void {
+    const [width, height] = [this.#area.clientWidth, this.#area.clientHeight];
     if (width === 0 || height === 0) return;
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#area.style.setProperty('--shape', `${width} / ${height}`);
+    this.light.dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    this.#renderer.setPixelRatio(pixelRatio());
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     // Now, not in the next frame: the canvas has just lost what was on it.
     this.#paint();
   }
+}
+
+/** Pixels of the screen for one of the page, at most two: more cost much and are hardly seen. */
+function pixelRatio(): number {
+  return Math.min(devicePixelRatio, 2);
 }

@@ -130,7 +130,9 @@ export class BodyScene implements StudioScene, Steerable {
   remove(i: number): void {
     const others = <T>(list: readonly T[]) => list.filter((_, k) => k !== i);
     this.#attempt(() => this.#hold(others(this.#points), others(this.#targets())));
-    this.#overlay.element(Math.min(i, this.#points.length - 1))?.focus({ preventScroll: true });
+    const { overlay } = this.#options;
+    const neighbor = this.#overlay.element(Math.min(i, this.#points.length - 1));
+    (neighbor ?? overlay.closest<HTMLElement>('[tabindex]'))?.focus({ preventScroll: true });
   }
 
   /** Replaces all handles by those of a file. */

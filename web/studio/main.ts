@@ -1,12 +1,12 @@
 import { load } from '../../wasm/ts/runtime.ts';
-import { cameraTools, freeTheWheel } from '../stage/camera-tools.ts';
+import { cameraTools } from '../stage/camera-tools.ts';
 import { View } from '../stage/view.ts';
 import { byId } from '../ui/dom.ts';
 import { Messages } from '../ui/messages.ts';
+import { Note } from '../ui/note.ts';
 import { Progress } from '../ui/progress.ts';
 import { listenForFiles } from './drop.ts';
 import { ModelSwitch } from './model-switch.ts';
-import { Note } from './note.ts';
 import { Studio } from './studio.ts';
 
 const viewport = byId('viewport');
@@ -15,13 +15,9 @@ const progress = new Progress(byId('progress'));
 const note = new Note(byId('note'));
 
 function start(): void {
-  freeTheWheel(viewport);
   const view = new View(byId<HTMLCanvasElement>('canvas'), viewport);
   viewport.after(cameraTools(view, viewport));
-  view.onLost = (lost) => {
-    if (lost) note.show('The graphics were interrupted. They come back by themselves.');
-    else note.hide();
-  };
+  view.onInterrupted = (words) => note.show(words);
   // Asked for now, awaited when a model is there: both come at the same time.
   const solver = load();
   solver.catch(() => {});

@@ -29,8 +29,9 @@ export class ModelSwitch {
     if (location.hash !== address) history.replaceState(null, '', address || location.pathname + location.search);
   }
 
-  set enabled(value: boolean) {
-    (this.#group as HTMLFieldSetElement).disabled = !value;
+  /** Nothing is on the stage: every choice is one. */
+  clear(): void {
+    for (const input of this.#group.querySelectorAll('input')) input.checked = false;
   }
 
   #add(id: string, label: string): void {

@@ -1,4 +1,5 @@
 import { h, svg } from '../ui/dom.ts';
+import { draggable, type Grip, isDragging, take } from '../ui/drag.ts';
 import { declutter, type Label } from './declutter.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 
@@ -26,10 +27,10 @@ export class Pad {
   readonly #ends: SVGTextElement[];
   #size = 0;
   #at: readonly [number, number] = [0, 0];
-  #dragging: number | undefined;
-  #before: readonly [number, number] = [0, 0];
+  /** Where the puck was before it came to a pointer beside it. */
+  #before: readonly [number, number] | undefined;
   /** Where a touch began that has not said yet what it wants. */
-  #tap: { readonly x: number; readonly y: number } | undefined;
+  #tap: { readonly pointer: number; readonly x: number; readonly y: number } | undefined;
 
   constructor(source: PoseSpaceSource, limit: number, go: (x: number, y: number) => void) {
     this.#source = source;
@@ -46,21 +47,39 @@ export class Pad {
     this.element = document.createElement('div');
     this.element.className = 'pad';
     this.element.append(this.#svg, this.#grip);
-    this.element.addEventListener('pointerdown', (event) => this.#begin(event));
+    const puck: Grip = {
+      hold: () => {
+        const before = this.#before ?? this.#at;
+        return () => this.#go(...before);
+      },
+      drag: (x, y) => this.#follow(x, y, 0),
+    };
+    draggable(this.#grip, puck);
+    /** The puck comes to a pointer beside it, and goes with it. */
+    const call = (event: PointerEvent, snap: number) => {
+      this.#before = this.#at;
+      this.#follow(event.clientX, event.clientY, snap);
+      take(this.#grip, puck, event);
+      this.#before = undefined;
+    };
+    this.element.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0 || isDragging()) return;
+      // A finger beside the puck may be about to scroll the page: it counts when it moves sideways or lifts.
+      if (event.pointerType === 'touch') this.#tap ??= { pointer: event.pointerId, x: event.clientX, y: event.clientY };
+      else call(event, SNAP);
+    });
     this.element.addEventListener('pointermove', (event) => {
-      if (event.pointerId !== this.#dragging) return;
-      if (this.#tap && isSideways(event.clientX - this.#tap.x, event.clientY - this.#tap.y)) this.#tap = undefined;
-      if (!this.#tap) this.#follow(event, 0);
+      if (event.pointerId !== this.#tap?.pointer) return;
+      if (!isSideways(event.clientX - this.#tap.x, event.clientY - this.#tap.y)) return;
+      this.#tap = undefined;
+      call(event, 0);
     });
-    this.element.addEventListener('pointerup', (event) => {
-      if (event.pointerId === this.#dragging && this.#tap) this.#follow(event, SNAP);
-      this.#end(event.pointerId);
-    });
-    for (const type of ['pointercancel', 'lostpointercapture'] as const) {
-      this.element.addEventListener(type, (event) => this.#end(event.pointerId));
-    }
-    // The pad takes no focus; while it is dragged, Esc is nobody else's.
-    document.addEventListener('keydown', this.#escape);
+    for (const type of ['pointerup', 'pointercancel'] as const)
+      this.element.addEventListener(type, (event) => {
+        if (event.pointerId !== this.#tap?.pointer) return;
+        this.#tap = undefined;
+        if (type === 'pointerup') this.#follow(event.clientX, event.clientY, SNAP);
+      });
     new ResizeObserver(() => this.#layout()).observe(this.element);
   }
 
@@ -86,22 +105,10 @@ export class Pad {
     return ((1 - value / this.#limit) / 2) * this.#size;
   }
 
-  #begin(event: PointerEvent): void {
-    if (event.button !== 0 || this.#dragging !== undefined) return;
-    event.preventDefault();
-    this.#dragging = event.pointerId;
-    this.#before = this.#at;
-    this.element.setPointerCapture(event.pointerId);
-    this.element.toggleAttribute('data-dragging', true);
-    // A finger beside the puck may be about to scroll the page: it counts when it moves sideways or lifts.
-    const unsure = event.pointerType === 'touch' && event.target !== this.#grip;
-    this.#tap = unsure ? { x: event.clientX, y: event.clientY } : undefined;
-    if (!this.#tap) this.#follow(event, event.target === this.#grip ? 0 : SNAP);
-  }
-
-  #follow(event: PointerEvent, snap: number): void {
+  /** Brings the puck to these pixels of the window, or to the example that is nearer than `snap`. */
+  #follow(x: number, y: number, snap: number): void {
     const box = this.element.getBoundingClientRect();
-    const [px, py] = [event.clientX - box.left - this.element.clientLeft, event.clientY - box.top - this.element.clientTop];
+    const [px, py] = [x - box.left - this.element.clientLeft, y - box.top - this.element.clientTop];
     let nearest = snap;
     let found: readonly number[] | undefined;
     for (const { at } of this.#source.examples) {
@@ -112,19 +119,6 @@ export class Pad {
     if (found) this.#go(found[0] ?? 0, found[1] ?? 0);
     else this.#go(clamp((px / this.#size) * 2 - 1), clamp(1 - (py / this.#size) * 2));
   }
-
-  #end(pointer: number): void {
-    if (pointer !== this.#dragging) return;
-    this.#dragging = undefined;
-    this.element.removeAttribute('data-dragging');
-  }
-
-  readonly #escape = (event: KeyboardEvent): void => {
-    if (!this.element.isConnected) document.removeEventListener('keydown', this.#escape);
-    if (event.key !== 'Escape' || this.#dragging === undefined) return;
-    this.#end(this.#dragging);
-    this.#go(...this.#before);
-  };
 
   #layout(): void {
     const size = this.element.clientWidth;

@@ -1,5 +1,5 @@
 import { byId } from '../ui/dom.ts';
-import type { Note } from './note.ts';
+import type { Note } from '../ui/note.ts';
 
 /** What a new handle is asked of: a place on the view, −1 to 1. Says whether there is a surface. */
 type PlaceAt = (x: number, y: number) => boolean;
@@ -40,7 +40,7 @@ export class Placing {
     if (!this.#active) return;
     this.#active = false;
     this.#reticle.hidden = true;
-    this.#note.hide();
+    this.#note.show('');
   }
 
   #key(event: KeyboardEvent): void {

@@ -1,4 +1,5 @@
 import { h, readable } from '../ui/dom.ts';
+import { steerSlider } from '../ui/slider.ts';
 import { Pad } from './pad.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 import { WeightBars } from './weight-bars.ts';
@@ -8,6 +9,8 @@ const SPEAK_AFTER = 600;
 /** An example counts as near up to this distance. */
 const NEAR = 0.3;
 const EXACT = 0.02;
+/** Of the sliders. */
+const STEP = 0.01;
 
 /** The controls of a pose space: the pad with its two sliders, the place in words, the examples' weights. */
 export class PosePanel {
@@ -34,13 +37,13 @@ export class PosePanel {
         class: i ? 'upright' : '',
         min: -limit,
         max: limit,
-        step: 0.01,
         value: 0,
         'aria-label': capital(name),
         ...(i ? { 'aria-orientation': 'vertical' } : {}),
         oninput: () => this.#slid(),
       }),
     ) as [HTMLInputElement, HTMLInputElement];
+    for (const slider of this.#sliders) steerSlider(slider, STEP);
     this.#pad = new Pad(source, limit, go);
     this.#bars = new WeightBars(source, go);
     const pad = h(
@@ -86,9 +89,9 @@ export class PosePanel {
     [x, y].forEach((value, i) => {
       const slider = this.#sliders[i] as HTMLInputElement;
       if (slider.valueAsNumber !== value) slider.value = String(value);
-      slider.setAttribute('aria-valuetext', `${readable(value)}${near ? `, ${near}` : ''}`);
+      slider.setAttribute('aria-valuetext', `${words(value)}${near ? `, ${near}` : ''}`);
     });
-    const text = `${dimensions[0]} ${readable(x)}, ${dimensions[1]} ${readable(y)}${near ? `, ${near}` : ''}`;
+    const text = `${dimensions[0]} ${words(x)}, ${dimensions[1]} ${words(y)}${near ? `, ${near}` : ''}`;
     this.#place.textContent = text;
     this.element.dataset.place = `${x} ${y}`;
     clearTimeout(this.#speaking);
@@ -116,6 +119,11 @@ export class PosePanel {
   #slid(): void {
     this.#go(this.#sliders[0].valueAsNumber, this.#sliders[1].valueAsNumber);
   }
+}
+
+/** A place on an axis, with a digit more where a fine step went between two. */
+function words(value: number): string {
+  return readable(value, Math.abs(value - Number(value.toFixed(2))) < 1e-6 ? 2 : 3);
 }
 
 function capital(text: string): string {

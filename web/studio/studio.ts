@@ -3,6 +3,7 @@ import type { View } from '../stage/view.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
 import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
+import type { Note } from '../ui/note.ts';
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
 import { BodyScene } from './body-scene.ts';
@@ -13,7 +14,6 @@ import { LiveBody } from './live-body.ts';
 import { type LoadedModel, loadModel } from './load-model.ts';
 import type { ModelSwitch } from './model-switch.ts';
 import { type ModelEntry, modelOf } from './models.ts';
-import type { Note } from './note.ts';
 import { Placing } from './placing.ts';
 import { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
@@ -58,7 +58,10 @@ export class Studio {
 
   /** Loads one of the studio's models, or the own one again. */
   async choose(id: string): Promise<void> {
-    if (id === this.#shown && !this.#work) return;
+    if (id === this.#shown) {
+      this.#work?.abort();
+      return;
+    }
     if (id === OWN) {
       if (this.#ownFile) await this.open(this.#ownFile);
       return;
@@ -105,7 +108,7 @@ export class Studio {
       const scene = await make(work.signal);
       if (work.signal.aborted) {
         scene.dispose();
-        return;
+        throw work.signal.reason;
       }
       messages.clear();
       this.#swap(scene, id);
@@ -116,6 +119,7 @@ export class Studio {
       if (work.signal.aborted && this.#work !== work) return;
       if (!isAbort(error)) this.#fail(error);
       if (this.#shown) this.#switch?.show(this.#shown);
+      else this.#switch?.clear();
     } finally {
       if (this.#work === work) {
         this.#work = undefined;
@@ -160,7 +164,7 @@ export class Studio {
     const scene = model.space
       ? new (await import('./pose-scene.ts')).PoseScene({ ...common, solver: await solver, space: model.space })
       : await this.#stageBody(model, common, signal, entry);
-    if (this.#shown || !entry) view.frame(scene.object, angles, scene.grounded);
+    if (!signal.aborted && (this.#shown || !entry)) view.frame(scene.object, angles, scene.grounded);
     return scene;
   }
 

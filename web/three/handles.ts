@@ -1,4 +1,6 @@
 import { type OrthographicCamera, type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
+import { draggable, type Grip, letGo } from '../ui/drag.ts';
+import { putHandle } from '../ui/put-handle.ts';
 
 /** One point that can be dragged. */
 export interface HandlePoint {
@@ -13,7 +15,7 @@ export interface HandleOverlayOptions {
   readonly camera: PerspectiveCamera | OrthographicCamera;
   /** A positioned element that covers exactly the canvas; the handles become buttons inside it. */
   readonly container: HTMLElement;
-  /** World units that an arrow key moves a handle by. Shift moves a fifth of it, Page keys five times it. */
+  /** World units that an arrow key moves a handle by. Shift moves a fifth of it, Page keys ten times it. */
   readonly step?: number;
   /** A handle was moved, by pointer or by keyboard. The vector is reused: copy what you keep. */
   readonly onMove?: (index: number, position: Vector3) => void;
@@ -30,19 +32,17 @@ interface Item {
   readonly description: HTMLElement;
   readonly removable: boolean;
   readonly position: Vector3;
-  /** Where Esc goes back to: the place before this drag or run of keys. */
-  readonly before: Vector3;
-  touched: boolean;
 }
 
 /**
  * Handles over a three.js canvas, each a real button: focusable, named, constant in size and seen through the model. They are dragged
  * by mouse, touch or pen in the plane that faces the camera; with the keyboard arrows move in the screen's plane (Shift = fine),
  * Page Up and Page Down coarsely up and down, + and − toward and away (so do Alt and the up and down arrows), Esc takes a move back,
- * Home puts a handle back, Delete removes or puts back.
+ * Home puts a handle back, Delete removes or puts back. One that lies outside the view stands at the rim.
  *
  * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side), `data-right`
- * (so far right that a label belongs on its left), `data-low` (so far down that a label belongs above it).
+ * (so far right that a label belongs on its left), `data-low` (so far down that a label belongs above it), `data-outside` (at the rim:
+ * to be hidden, but by `opacity`, until it has the focus).
  *
  * ```ts
  * const handles = new HandleOverlay({ camera, container, onMove: (i, p) => p.toArray(irbf.targets, i * 10) });
@@ -58,9 +58,8 @@ export class HandleOverlay {
   readonly #plane = new Plane();
   readonly #pointer = new Vector2();
   readonly #hit = new Vector3();
-  readonly #moved = new Vector3();
-  readonly #grip = new Vector3();
-  #drag: { index: number; pointer: number } | undefined;
+  readonly #axis = new Vector3();
+  #dragged = -1;
   #selected = -1;
   #enabled = true;
 
@@ -78,7 +77,7 @@ export class HandleOverlay {
   }
 
   get dragging(): boolean {
-    return this.#drag !== undefined;
+    return this.#dragged >= 0;
   }
 
   get enabled(): boolean {
@@ -87,26 +86,30 @@ export class HandleOverlay {
 
   set enabled(value: boolean) {
     this.#enabled = value;
-    for (const { button } of this.#items) button.disabled = !value;
+    for (const { button } of this.#items) {
+      if (!value) letGo(button);
+      button.disabled = !value;
+    }
   }
 
-  /** Replaces all handles. A handle keeps its button, and so the focus, when its number stays. */
+  /** Replaces all handles. A handle keeps its button, and so the focus, when its number stays; where it goes, its neighbor has the focus. */
   set(points: readonly HandlePoint[]): void {
-    this.#release();
-    while (this.#items.length > points.length) {
-      const item = this.#items.pop();
-      item?.button.remove();
-      item?.description.remove();
+    for (const { button } of this.#items) letGo(button);
+    let focusGoes = false;
+    for (const { button, description } of this.#items.splice(points.length)) {
+      focusGoes ||= button.matches(':focus');
+      button.remove();
+      description.remove();
     }
     points.forEach((point, i) => {
-      const old = this.#items[i];
-      const parts = old ?? this.#make(i);
-      this.#items[i] = { ...parts, removable: point.removable ?? false, touched: false };
+      const parts = this.#items[i] ?? this.#make(i);
+      this.#items[i] = { ...parts, removable: point.removable ?? false };
       parts.button.setAttribute('aria-label', point.name);
       parts.button.dataset.name = point.name;
       parts.position.fromArray(point.position as [number, number, number]);
     });
     this.select(Math.min(this.#selected, points.length - 1));
+    if (focusGoes) this.#items.at(-1)?.button.focus({ preventScroll: true });
   }
 
   /** Places a handle without telling anyone. */
@@ -144,16 +147,15 @@ export class HandleOverlay {
     const { camera, container } = this.#options;
     const [width, height] = [container.clientWidth, container.clientHeight];
     for (const { button, position } of this.#items) {
+      const behind = this.#axis.copy(position).applyMatrix4(camera.matrixWorldInverse).z > 0 && 'isPerspectiveCamera' in camera;
       const p = this.#hit.copy(position).project(camera);
-      const visible = p.z > -1 && p.z < 1;
-      button.style.visibility = visible ? '' : 'hidden';
-      if (!visible) continue;
-      const [x, y] = [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height];
-      button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
-      button.toggleAttribute('data-right', x > width * 0.6);
-      button.toggleAttribute('data-low', y > height * 0.8);
+      // What is behind the camera is projected upside down, the nearer the middle the farther it is to the side.
+      if (behind) p.multiplyScalar(-Math.max(1, 2 / Math.max(Math.abs(p.x), Math.abs(p.y), 1e-6)));
+      putHandle(button, ((1 + p.x) / 2) * width, ((1 - p.y) / 2) * height, width, height);
+      button.toggleAttribute('data-right', p.x > 0.2);
+      button.toggleAttribute('data-low', p.y < -0.6);
       // Nearer handles lie on top, within the overlay's own stacking context.
-      button.style.zIndex = String(1 + Math.round((1 - p.z) * 10000));
+      button.style.zIndex = String(1 + Math.max(Math.round((1 - p.z) * 10000), 0));
     }
   }
 
@@ -161,7 +163,7 @@ export class HandleOverlay {
     this.set([]);
   }
 
-  #make(index: number): Omit<Item, 'removable' | 'touched'> {
+  #make(index: number): Omit<Item, 'removable'> {
     const button = document.createElement('button');
     const description = document.createElement('span');
     description.id = `handle-description-${++descriptions}`;
@@ -169,118 +171,65 @@ export class HandleOverlay {
     button.type = 'button';
     button.className = 'handle';
     button.disabled = !this.#enabled;
-    // Only here may a touch not scroll the page.
-    Object.assign(button.style, { position: 'absolute', left: '0', top: '0', touchAction: 'none' });
+    button.style.position = 'absolute';
     button.setAttribute('aria-describedby', description.id);
-    button.addEventListener('pointerdown', (event) => this.#begin(index, event));
-    button.addEventListener('pointermove', (event) => this.#move(event));
-    for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
-      button.addEventListener(type, (event) => this.#drag?.pointer === event.pointerId && this.#release());
-    }
-    button.addEventListener('keydown', (event) => this.#key(index, event));
+    draggable(button, this.#grip(index));
     button.addEventListener('focus', () => this.select(index));
-    button.addEventListener('blur', () => this.#settle(index));
     this.#options.container.append(button, description);
-    return { button, description, position: new Vector3(), before: new Vector3() };
+    return { button, description, position: new Vector3() };
   }
 
-  #begin(index: number, event: PointerEvent): void {
-    const item = this.#items[index];
-    if (!item || event.button !== 0 || this.#drag || !this.#enabled) return;
-    event.stopPropagation();
-    event.preventDefault();
-    item.button.focus({ preventScroll: true });
-    this.select(index);
-    item.button.setPointerCapture(event.pointerId);
-    item.button.toggleAttribute('data-dragging', true);
-    item.before.copy(item.position);
-    item.touched = true;
-    this.#drag = { index, pointer: event.pointerId };
-    this.#options.camera.getWorldDirection(this.#plane.normal);
-    this.#plane.setFromNormalAndCoplanarPoint(this.#plane.normal, item.position);
-    // Grabbed off its middle, a handle must not jump there.
-    if (this.#project(event)) this.#grip.subVectors(item.position, this.#hit);
-    else this.#grip.set(0, 0, 0);
-    this.#options.onDrag?.(index, true);
-  }
-
-  #move(event: PointerEvent): void {
-    if (!this.#drag || event.pointerId !== this.#drag.pointer) return;
-    if (this.#project(event)) this.#put(this.#drag.index, this.#moved.addVectors(this.#hit, this.#grip));
-  }
-
-  #release(): void {
-    if (!this.#drag) return;
-    const { index, pointer } = this.#drag;
-    const button = this.#items[index]?.button;
-    this.#drag = undefined;
-    button?.removeAttribute('data-dragging');
-    if (button?.hasPointerCapture(pointer)) button.releasePointerCapture(pointer);
-    this.#settle(index);
-    this.#options.onDrag?.(index, false);
-  }
-
-  #settle(index: number): void {
-    const item = this.#items[index];
-    if (item) item.touched = false;
-  }
-
-  #key(index: number, event: KeyboardEvent): void {
-    const item = this.#items[index];
-    if (!item || event.ctrlKey || event.metaKey) return;
-    const { key, shiftKey, altKey } = event;
-    if (key === 'Escape') {
-      if (!item.touched) return;
-      this.#put(index, this.#moved.copy(item.before));
-      this.#release();
-      this.#settle(index);
-    } else if (key === 'Home') {
-      this.#options.onReset?.(index);
-    } else if (key === 'Delete' || key === 'Backspace') {
-      if (item.removable) this.#options.onRemove?.(index);
-      else this.#options.onReset?.(index);
-    } else {
-      const direction = DIRECTIONS[altKey ? `Alt+${key}` : key];
-      if (!direction) return;
-      if (!item.touched) item.before.copy(item.position);
-      item.touched = true;
-      const [column, sign, factor] = direction;
-      const length = sign * this.step * factor * (shiftKey ? 0.2 : 1);
-      this.#moved.setFromMatrixColumn(this.#options.camera.matrixWorld, column).normalize();
-      this.#put(index, this.#moved.multiplyScalar(length).add(item.position));
-    }
-    event.preventDefault();
-    event.stopPropagation();
+  #grip(index: number): Grip {
+    const { camera, container, onReset, onRemove, onDrag } = this.#options;
+    const item = () => this.#items[index] as Item;
+    return {
+      pick: () => {
+        this.#dragged = index;
+        this.select(index);
+        onDrag?.(index, true);
+      },
+      hold: () => {
+        const held = item();
+        const before = held.position.clone();
+        camera.getWorldDirection(this.#plane.normal);
+        this.#plane.setFromNormalAndCoplanarPoint(this.#plane.normal, before);
+        return () => {
+          if (item() === held) this.#put(index, before);
+        };
+      },
+      middle: () => {
+        const { left, top, width, height } = container.getBoundingClientRect();
+        const { x, y } = this.#hit.copy(item().position).project(camera);
+        return [left + ((1 + x) / 2) * width, top + ((1 - y) / 2) * height];
+      },
+      drag: (x, y) => {
+        const { left, top, width, height } = container.getBoundingClientRect();
+        this.#pointer.set(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2);
+        this.#ray.setFromCamera(this.#pointer, camera);
+        if (this.#ray.ray.intersectPlane(this.#plane, this.#hit)) this.#put(index, this.#hit);
+      },
+      nudge: (...steps) => {
+        this.#hit.copy(item().position);
+        steps.forEach((count, column) => {
+          this.#axis.setFromMatrixColumn(camera.matrixWorld, column).normalize();
+          this.#hit.addScaledVector(this.#axis, count * this.step);
+        });
+        this.#put(index, this.#hit);
+      },
+      reset: () => onReset?.(index),
+      remove: () => (item().removable ? onRemove : onReset)?.(index),
+      settle: () => {
+        if (this.#dragged !== index) return;
+        this.#dragged = -1;
+        onDrag?.(index, false);
+      },
+    };
   }
 
   #put(index: number, position: Vector3): void {
     this.#items[index]?.position.copy(position);
     this.#options.onMove?.(index, position);
   }
-
-  /** The pointer's place in the drag's plane, into #hit. */
-  #project(event: PointerEvent): boolean {
-    const box = this.#options.container.getBoundingClientRect();
-    this.#pointer.set(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
-    this.#ray.setFromCamera(this.#pointer, this.#options.camera);
-    return this.#ray.ray.intersectPlane(this.#plane, this.#hit) !== null;
-  }
 }
-
-/** Key → column of the camera's matrix (right, up, toward the viewer), sign, steps. */
-const DIRECTIONS: Record<string, readonly [number, number, number]> = {
-  ArrowRight: [0, 1, 1],
-  ArrowLeft: [0, -1, 1],
-  ArrowUp: [1, 1, 1],
-  ArrowDown: [1, -1, 1],
-  PageUp: [1, 1, 5],
-  PageDown: [1, -1, 5],
-  '+': [2, 1, 1],
-  '=': [2, 1, 1],
-  '-': [2, -1, 1],
-  _: [2, -1, 1],
-  'Alt+ArrowDown': [2, 1, 1],
-  'Alt+ArrowUp': [2, -1, 1],
-};
 
 let descriptions = 0;

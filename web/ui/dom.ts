@@ -42,8 +42,16 @@ function apply(element: Element, attributes: Attributes): void {
   }
 }
 
-/** A number as people read it: a true minus sign, a fixed number of digits, no minus zero. */
+/** A number as people read it: a true minus sign, a fixed number of digits (a power of ten where those are too many), no minus zero. */
 export function readable(value: number, digits = 2): string {
+  const power = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+  if (Math.max(power, 0) + digits > 12) return shortest(value, Math.min(Math.max(power + digits, 0), 4));
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '−');
+}
+
+/** 1.5e300 */
+function shortest(value: number, digits: number): string {
+  const text = value.toExponential(digits).replace(/\.?0*e\+?/, 'e');
+  return text === '0e0' ? '0' : text.replaceAll('-', '−');
 }

@@ -12,9 +12,16 @@ export class Messages {
     this.#returnTo = returnTo;
   }
 
-  show(error: unknown): void {
+  /** `again`: what was asked for may well come when it is asked for once more. */
+  show(error: unknown, again?: () => void): void {
     if (this.final) return;
     const text = sentences(error);
+    const retry = () => {
+      this.#dismiss();
+      again?.();
+    };
+    const style = 'margin-block-start: var(--gap-2)';
+    if (again) text.append(h('button', { type: 'button', class: 'button', style, onclick: retry }, 'Try again'));
     const dismiss = h(
       'button',
       { type: 'button', class: 'dismiss', 'aria-label': 'Dismiss this message', onclick: () => this.#dismiss() },

@@ -6,8 +6,8 @@ export function reducedMotion(): boolean {
   return query().matches;
 }
 
-export function onMotionChange(listener: () => void): void {
-  query().addEventListener('change', listener);
+export function onMotionChange(listener: () => void, signal: AbortSignal): void {
+  query().addEventListener('change', listener, { signal });
 }
 
 /** From 0 to 1, slow at both ends. */

@@ -7,6 +7,8 @@ export class Progress {
   readonly #bar = h('progress', { max: 1, 'aria-labelledby': 'progress-label' });
   readonly #cancel = h('button', { type: 'button', class: 'button', hidden: true }, 'Cancel');
   #stop: (() => void) | undefined;
+  /** What had the focus when the work began. */
+  #from: Element | null = null;
 
   constructor(box: HTMLElement) {
     this.#box = box;
@@ -20,6 +22,7 @@ export class Progress {
   begin(label: string, cancel?: () => void): void {
     this.#label.textContent = label;
     this.#stop = cancel;
+    if (this.#box.hidden) this.#from = document.activeElement;
     this.#cancel.hidden = !cancel;
     this.#bar.removeAttribute('value');
     this.#box.hidden = false;
@@ -33,6 +36,7 @@ export class Progress {
   }
 
   end(): void {
+    if (this.#box.contains(document.activeElement) && this.#from instanceof HTMLElement) this.#from.focus();
     this.#box.hidden = true;
     this.#stop = undefined;
   }

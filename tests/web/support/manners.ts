@@ -31,3 +31,11 @@ export async function cramped(page: Page): Promise<string[]> {
     ];
   });
 }
+
+/** What has the focus: how it is called, "body" for nothing. */
+export async function focused(page: Page): Promise<string> {
+  return page.evaluate(() => {
+    const element = document.activeElement as HTMLElement;
+    return element.ariaLabel ?? element.getAttribute('aria-label') ?? (element.closest('label') ?? element).innerText.trim();
+  });
+}

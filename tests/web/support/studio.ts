@@ -141,6 +141,13 @@ export async function loseContext(page: Page): Promise<void> {
   await page.locator('#note').waitFor({ state: 'hidden' });
 }
 
+/** Fingers by number: `touch('touchStart', [x, y, 0], [x, y, 1])`. One that is missing from the next call has lifted. */
+export async function fingers(page: Page) {
+  const cdp = await page.context().newCDPSession(page);
+  return (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: (readonly [x: number, y: number, id: number])[]) =>
+    cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y, id]) => ({ x, y, id })) });
+}
+
 /** A finger that goes down at a place moves from there and lifts. */
 export async function swipe(page: Page, x: number, y: number, dx: number, dy: number): Promise<void> {
   const cdp = await page.context().newCDPSession(page);

@@ -1,5 +1,5 @@
+import { ColorMap } from '../../figures/kit/color-map.ts';
 import { h } from '../../ui/dom.ts';
-import { ColorMap } from '../interpolation/color-map.ts';
 import type { Handle } from './experiment.ts';
 import type { Method } from './methods.ts';
 

@@ -76,9 +76,9 @@ export function wrap(degrees: number): number {
   return wrapped === -180 ? 180 : wrapped;
 }
 
-/** To a thousandth, so that addresses stay short and a place said is the place meant. */
+/** To a thousandth, so that addresses stay short and a place said is the place meant; what is far away has no thousandths. */
 export function tidy(value: number): number {
-  return Math.round(value * 1000) / 1000 + 0;
+  return Math.abs(value) < 1e12 ? Math.round(value * 1000) / 1000 + 0 : value;
 }
 
 export function atRest(handle: Handle): boolean {

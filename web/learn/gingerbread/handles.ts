@@ -1,16 +1,16 @@
 import { h } from '../../ui/dom.ts';
-import { endOf, type Handle, type Place, placeOf } from './experiment.ts';
+import { draggable, type Grip } from '../../ui/drag.ts';
+import { focusNeighbor } from '../../ui/focus.ts';
+import { putHandle } from '../../ui/put-handle.ts';
+import { endOf, type Place, placeOf } from './experiment.ts';
 import type { Lesson } from './lesson.ts';
 
 /** Part of the picture's height for a step of the keyboard. */
 const STEP = 0.01;
+/** Degrees for a key, or a notch of the wheel. */
 const TURN_STEP = 5;
 /** Pixels from a handle to the knob that turns it. */
 const KNOB = 38;
-/** Degrees for a notch of the wheel. */
-const WHEEL = 5;
-
-type Part = 'move' | 'turn';
 
 interface Item {
   readonly move: HTMLButtonElement;
@@ -18,55 +18,45 @@ interface Item {
   readonly line: HTMLElement;
 }
 
-interface Drag {
-  readonly i: number;
-  readonly part: Part;
-  readonly pointer: number;
-  readonly back: () => void;
-  /** Off the handle's middle by so much. */
-  readonly grip: Place;
-  /** The second finger, and the angle of the line to it when it came. */
-  second?: { pointer: number; at: Place; angle: number; turn: number };
-  at: Place;
-}
-
 /** Handles over the picture: dragged by mouse, finger or pen, turned by a knob, a second finger or the wheel, moved by the keyboard. */
 export class Handles {
   readonly #area: HTMLElement;
   readonly #lesson: Lesson;
-  readonly #settle: () => void;
+  /** What adds handles. */
+  readonly #adds: HTMLElement;
   readonly #items: Item[] = [];
   readonly #knob = h('span', { class: 'knob', 'aria-hidden': 'true' });
-  #drag: Drag | undefined;
   /** A handle that asks to be taken, until one is. */
   #invites = 2;
-  /** The handle that the keyboard took hold of. */
-  #before: { i: number; back: () => void } | undefined;
 
-  constructor(area: HTMLElement, lesson: Lesson, settle: () => void) {
+  constructor(area: HTMLElement, lesson: Lesson, adds: HTMLElement) {
     this.#area = area;
     this.#lesson = lesson;
-    this.#settle = settle;
-    this.#listen(this.#knob, () => this.#lesson.picked, 'turn');
+    this.#adds = adds;
+    const picked = () => lesson.picked;
+    draggable(this.#knob, {
+      hold: () => this.#hold(picked()),
+      drag: (x, y) => this.#turnTo(picked(), x, y),
+      settle: () => lesson.redraw(),
+    });
     area.append(this.#knob);
     area.addEventListener('dblclick', (event) => {
       if (event.target === area || (event.target as Element).matches('canvas')) this.#add(event);
     });
-    area.addEventListener('pointerdown', (event) => this.#secondFinger(event));
-    area.addEventListener('pointermove', (event) => this.#followSecond(event));
-    for (const type of ['pointerup', 'pointercancel'] as const)
-      area.addEventListener(type, (event) => {
-        if (this.#drag?.second?.pointer === event.pointerId) delete this.#drag.second;
-      });
-    document.addEventListener('keydown', (event) => this.#escape(event), { capture: true });
-  }
-
-  get dragging(): boolean {
-    return this.#drag !== undefined;
   }
 
   focus(i: number): void {
     this.#items[i]?.move.focus();
+  }
+
+  /** The focus goes to a neighbor of handle `i`, which is gone. */
+  focusNear(i: number): void {
+    this.draw();
+    focusNeighbor(
+      this.#items.map(({ move }) => move),
+      i,
+      this.#adds,
+    );
   }
 
   /** Puts everything where it is on the screen. */
@@ -80,7 +70,7 @@ export class Handles {
     shown.forEach((handle, i) => {
       const { move, end, line } = this.#items[i] as Item;
       const at = picture.toScreen(placeOf(handle));
-      put(move, at);
+      putHandle(move, ...at, ...picture.size);
       move.toggleAttribute('data-picked', i === picked);
       move.toggleAttribute('data-bone', handle.end !== undefined);
       move.toggleAttribute('data-invites', i === this.#invites);
@@ -88,192 +78,108 @@ export class Handles {
       end.hidden = line.hidden = handle.end === undefined;
       if (!handle.end) return;
       const tip = picture.toScreen(endOf(handle));
-      put(end, tip);
+      putHandle(end, ...tip, ...picture.size);
       end.toggleAttribute('data-picked', i === picked);
       end.ariaLabel = `End of bone ${i}, turned ${Math.round(handle.turn)}°`;
       const [dx, dy] = [tip[0] - at[0], tip[1] - at[1]];
-      line.style.width = `${Math.hypot(dx, dy).toFixed(1)}px`;
-      line.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) rotate(${Math.atan2(dy, dx)}rad)`;
+      const [width, height] = picture.size;
+      // Parts of the picture, as the ends: see putHandle.
+      line.style.left = `${((100 * at[0]) / width).toFixed(3)}%`;
+      line.style.top = `${((100 * at[1]) / height).toFixed(3)}%`;
+      line.style.width = `${((100 * Math.hypot(dx, dy)) / width).toFixed(3)}%`;
+      line.style.rotate = `${Math.atan2(dy, dx)}rad`;
     });
     const handle = shown[picked];
     this.#knob.hidden = !handle || handle.end !== undefined;
     if (handle && !handle.end) {
-      const [x, y] = picture.toScreen(placeOf(handle));
-      this.#knob.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) rotate(${-handle.turn}deg) translateY(${-KNOB}px)`;
+      putHandle(this.#knob, ...picture.toScreen(placeOf(handle)), ...picture.size);
+      this.#knob.style.transform = `rotate(${-handle.turn}deg) translateY(${-KNOB}px)`;
     }
   }
 
   #make(i: number): void {
-    const button = (kind: string) => {
+    const button = (kind: string, grip: Partial<Grip> & Pick<Grip, 'drag' | 'nudge'>) => {
       const made = h('button', { type: 'button', class: `handle ${kind}`, 'aria-roledescription': 'movable handle' });
       made.dataset.handle = String(i);
       made.setAttribute(
         'aria-keyshortcuts',
-        'ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Q E Shift+Q Shift+E Delete Escape',
+        'ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Q E Shift+Q Shift+E Home Delete Escape',
       );
       made.addEventListener('focus', () => this.#lesson.pick(i));
-      made.addEventListener('blur', () => {
-        this.#before = undefined;
-      });
-      made.addEventListener('wheel', (event) => this.#wheel(event, i), { passive: false });
+      draggable(made, { ...this.#grip(i), ...grip });
       return made;
     };
-    const [move, end, line] = [button('start'), button('end'), h('span', { class: 'bone-line' })];
-    this.#listen(move, () => i, 'move');
-    this.#listen(end, () => i, 'turn');
-    move.addEventListener('keydown', (event) => this.#key(event, i, 'move'));
-    end.addEventListener('keydown', (event) => this.#key(event, i, 'turn'));
+    const move = button('start', {
+      drag: (x, y) => this.#lesson.move(i, ...this.#lesson.picture.toPlace(...this.#local(x, y))),
+      nudge: (across, up) => this.#nudge(i, across, up),
+      twist: () => {
+        const from = this.#lesson.handles[i]?.turn ?? 0;
+        return (degrees) => this.#lesson.turn(i, from + degrees);
+      },
+    });
+    // The end of a bone goes around its start.
+    const end = button('end', {
+      drag: (x, y) => this.#turnTo(i, x, y),
+      nudge: (across, up) => this.#turn(i, up - across),
+    });
+    const line = h('span', { class: 'bone-line' });
     this.#items.push({ move, end, line });
     this.#area.append(line, move, end);
   }
 
-  #listen(element: HTMLElement, index: () => number, part: Part): void {
-    element.addEventListener('pointerdown', (event) => this.#begin(event, index(), part));
-    element.addEventListener('pointermove', (event) => this.#follow(event));
-    for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
-      element.addEventListener(type, (event) => this.#end(event.pointerId));
+  /** What both ends of a handle do alike. */
+  #grip(i: number) {
+    const lesson = this.#lesson;
+    return {
+      hold: () => this.#hold(i),
+      turn: (steps: number) => this.#turn(i, steps),
+      pick: () => lesson.pick(i),
+      reset: () => lesson.relax(i),
+      remove: () => {
+        lesson.remove(i);
+        this.focusNear(i);
+      },
+      settle: () => lesson.redraw(),
+    };
   }
 
-  #begin(event: PointerEvent, i: number, part: Part): void {
-    if (event.button !== 0 || this.#drag) return;
-    const element = event.currentTarget as HTMLElement;
-    event.preventDefault();
-    if (element instanceof HTMLButtonElement) element.focus({ preventScroll: true });
-    element.setPointerCapture(event.pointerId);
-    const at = this.#local(event);
-    const handle = this.#lesson.handles[i] as Handle;
-    const middle = this.#lesson.picture.toScreen(part === 'turn' && handle.end ? endOf(handle) : placeOf(handle));
-    const back = this.#lesson.hold(i);
-    const grip: Place = element === this.#knob ? [0, 0] : [at[0] - middle[0], at[1] - middle[1]];
-    this.#drag = { i, part, pointer: event.pointerId, back, grip, at };
-    this.#area.toggleAttribute('data-dragging', true);
+  #hold(i: number): () => void {
     this.#invites = -1;
-    this.#lesson.pick(i);
+    return this.#lesson.hold(i);
   }
 
-  #follow(event: PointerEvent): void {
-    const drag = this.#drag;
-    if (drag?.pointer !== event.pointerId) return;
-    drag.at = this.#local(event);
-    const [px, py] = [drag.at[0] - drag.grip[0], drag.at[1] - drag.grip[1]];
-    if (drag.part === 'move') {
-      this.#lesson.move(drag.i, ...this.#lesson.picture.toPlace(px, py));
-      this.#turnBySecond();
-      return;
-    }
-    const handle = this.#lesson.handles[drag.i] as Handle;
-    const [x, y] = this.#lesson.picture.toScreen(placeOf(handle));
+  #nudge(i: number, across: number, up: number): void {
+    const handle = this.#lesson.handles[i];
+    if (!handle) return;
+    const [x, y] = placeOf(handle);
+    const step = (STEP * this.#area.clientHeight) / this.#lesson.picture.scale;
+    this.#lesson.move(i, x + across * step, y + up * step);
+  }
+
+  #turn(i: number, steps: number): void {
+    this.#lesson.turn(i, (this.#lesson.handles[i]?.turn ?? 0) + steps * TURN_STEP);
+  }
+
+  /** Turns a handle so that its knob, or a bone so that its end, points to these pixels of the window. */
+  #turnTo(i: number, x: number, y: number): void {
+    const handle = this.#lesson.handles[i];
+    if (!handle) return;
+    const [px, py] = this.#local(x, y);
+    const [cx, cy] = this.#lesson.picture.toScreen(placeOf(handle));
     // The knob stands above a handle at rest, the end of a bone where the bone points.
     const zero = handle.end ? Math.atan2(handle.end[1] - handle.rest[1], handle.end[0] - handle.rest[0]) : Math.PI / 2;
-    this.#lesson.turn(drag.i, ((Math.atan2(y - py, px - x) - zero) * 180) / Math.PI);
-  }
-
-  #secondFinger(event: PointerEvent): void {
-    const drag = this.#drag;
-    if (!drag || drag.second || event.pointerId === drag.pointer || drag.part !== 'move') return;
-    event.preventDefault();
-    const at = this.#local(event);
-    drag.second = { pointer: event.pointerId, at, angle: angleOf(drag.at, at), turn: this.#lesson.handles[drag.i]?.turn ?? 0 };
-  }
-
-  #followSecond(event: PointerEvent): void {
-    const second = this.#drag?.second;
-    if (second?.pointer !== event.pointerId) return;
-    second.at = this.#local(event);
-    this.#turnBySecond();
-  }
-
-  #turnBySecond(): void {
-    const drag = this.#drag;
-    if (!drag?.second) return;
-    this.#lesson.turn(drag.i, drag.second.turn + angleOf(drag.at, drag.second.at) - drag.second.angle);
-  }
-
-  #end(pointer: number): void {
-    if (this.#drag?.pointer !== pointer) return;
-    this.#drag = undefined;
-    this.#area.toggleAttribute('data-dragging', false);
-    this.#settle();
-  }
-
-  #escape(event: KeyboardEvent): void {
-    if (event.key !== 'Escape' || !this.#drag) return;
-    const { back, pointer } = this.#drag;
-    this.#end(pointer);
-    back();
-    event.stopPropagation();
-  }
-
-  /** Turns only what is focused or held: elsewhere the page scrolls. */
-  #wheel(event: WheelEvent, i: number): void {
-    const held = this.#drag?.i === i;
-    if ((!held && document.activeElement !== event.currentTarget) || event.ctrlKey || event.deltaY === 0) return;
-    event.preventDefault();
-    const step = (event.shiftKey ? WHEEL / 5 : WHEEL) * -Math.sign(event.deltaY);
-    this.#lesson.turn(i, (this.#lesson.handles[i]?.turn ?? 0) + step);
-    this.#settle();
-  }
-
-  #key(event: KeyboardEvent, i: number, part: Part): void {
-    const lesson = this.#lesson;
-    const handle = lesson.handles[i];
-    if (!handle || event.ctrlKey || event.metaKey || event.altKey) return;
-    const [x, y] = placeOf(handle);
-    const fine = event.shiftKey ? 0.2 : 1;
-    const step = (STEP * fine * this.#area.clientHeight) / lesson.picture.scale;
-    const turn = (by: number) => () => lesson.turn(i, handle.turn + by * fine);
-    const moves: Record<string, () => void> = {
-      arrowleft: () => lesson.move(i, x - step, y),
-      arrowright: () => lesson.move(i, x + step, y),
-      arrowdown: () => lesson.move(i, x, y - step),
-      arrowup: () => lesson.move(i, x, y + step),
-      pagedown: () => lesson.move(i, x, y - 10 * step),
-      pageup: () => lesson.move(i, x, y + 10 * step),
-      q: turn(TURN_STEP),
-      e: turn(-TURN_STEP),
-    };
-    if (part === 'turn') {
-      for (const key of ['arrowleft', 'arrowup']) moves[key] = turn(TURN_STEP);
-      for (const key of ['arrowright', 'arrowdown']) moves[key] = turn(-TURN_STEP);
-      moves.pageup = turn(9 * TURN_STEP);
-      moves.pagedown = turn(-9 * TURN_STEP);
-    }
-    const move = moves[event.key.toLowerCase()];
-    if (move) {
-      if (this.#before?.i !== i) this.#before = { i, back: lesson.hold(i) };
-      move();
-    } else if (event.key === 'Escape' && this.#before?.i === i) {
-      this.#before.back();
-      this.#before = undefined;
-    } else if (event.key === 'Delete' || event.key === 'Backspace') {
-      lesson.remove(i);
-      this.draw();
-      this.focus(Math.min(i, this.#items.length - 1));
-    } else {
-      return;
-    }
-    event.preventDefault();
-    this.#settle();
+    this.#lesson.turn(i, ((Math.atan2(cy - py, px - cx) - zero) * 180) / Math.PI);
   }
 
   #add(event: MouseEvent): void {
-    if (!this.#lesson.addAt(this.#lesson.picture.toPlace(...this.#local(event)))) return;
+    if (!this.#lesson.addAt(this.#lesson.picture.toPlace(...this.#local(event.clientX, event.clientY)))) return;
     this.draw();
     this.focus(this.#lesson.picked);
-    this.#settle();
   }
 
-  #local(event: MouseEvent): Place {
+  /** Pixels of the picture for pixels of the window. */
+  #local(x: number, y: number): Place {
     const box = this.#area.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
+    return [x - box.left, y - box.top];
   }
-}
-
-function put(element: HTMLElement, [x, y]: Place): void {
-  element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-}
-
-/** Degrees of the line from one place of the screen to another, counter-clockwise. */
-function angleOf(from: Place, to: Place): number {
-  return (Math.atan2(from[1] - to[1], to[0] - from[0]) * 180) / Math.PI;
 }

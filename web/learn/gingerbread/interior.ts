@@ -18,6 +18,8 @@ const TARGET = 10;
 interface BakeListener {
   readonly signal: AbortSignal;
   readonly onProgress: (part: number) => void;
+  /** No thread could be started: it is baked on the page's. */
+  readonly onFallback: () => void;
 }
 
 /**

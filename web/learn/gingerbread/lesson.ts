@@ -2,9 +2,12 @@ import { HandlebodyError } from '../../../wasm/ts/errors.ts';
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import { countFlips, meshShape, type PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
+import { leftOut } from '../../ui/address.ts';
 import { readable } from '../../ui/dom.ts';
+import { explain } from '../../ui/explain.ts';
 import { reducedMotion } from '../../ui/motion.ts';
-import { fromAddress, toAddress } from './address.ts';
+import { PageError } from '../../ui/page-error.ts';
+import { fromAddress, initial, toAddress } from './address.ts';
 import { Deformer } from './deformer.ts';
 import { Ease } from './ease.ts';
 import {
@@ -73,11 +76,12 @@ export class Lesson {
   constructor(picture: Picture, audience: Audience) {
     this.picture = picture;
     this.#audience = audience;
-    this.experiment = fromAddress(location.hash);
-    const { outline, mesh } = this.#build(this.experiment);
-    [this.outline, this.mesh] = [outline, mesh];
-    this.#good = Float32Array.from(mesh.positions);
+    const { experiment, built, said } = this.#read(location.hash);
+    this.experiment = experiment;
+    [this.outline, this.mesh] = [built.outline, built.mesh];
+    this.#good = Float32Array.from(this.mesh.positions);
     this.#show();
+    if (said) audience.trouble(said);
   }
 
   /** The solver has come: poses can be struck. */
@@ -108,24 +112,45 @@ export class Lesson {
 
   // Shapes
 
-  /** Shows what an address says; the shape that was stays when it has none. */
+  /** Shows what an address says, as far as it can be shown; the gingerbread man stands in for an outline that is none. */
   open(hash: string): void {
     if (hash.replace(/^#/, '') === this.address) return;
-    this.start(fromAddress(hash));
+    const { experiment, built, said } = this.#read(hash);
+    this.#start(experiment, built, undefined);
+    if (said) this.#audience.trouble(said);
   }
 
-  /** Another shape, handles and all. On an outline that is none the page stays as it was. */
+  #read(hash: string): { experiment: Experiment; built: Built; said: PageError | undefined } {
+    const left: string[] = [];
+    const read = fromAddress(hash, left);
+    try {
+      const built = build(read);
+      if (read.shape === 'own' && !/[#&]h=/.test(hash)) read.handles = spread(built.mesh, 4);
+      return { experiment: read, built, said: leftOut(left) };
+    } catch (error) {
+      const { method, vertices, show } = read;
+      const experiment = { ...initial(), method, vertices, show };
+      return { experiment, built: build(experiment), said: standIn(error) };
+    }
+  }
+
+  /** Another shape, with handles of its own where it brings none. On an outline that is none the page stays as it was. */
   start(experiment: Experiment, painting?: PaintedShape): boolean {
     try {
-      const { outline, mesh } = this.#build(experiment);
-      this.#painting = painting;
-      this.experiment = experiment;
-      [this.outline, this.mesh] = [outline, mesh];
-      if (experiment.shape === 'own' && experiment.handles.length === 0) this.experiment.handles = spread(this.mesh, 4);
+      const built = build(experiment);
+      if (experiment.handles.length === 0 && experiment.shape === 'own') experiment.handles = spread(built.mesh, 4);
+      this.#start(experiment, built, painting);
+      return true;
     } catch (error) {
       this.#audience.trouble(error);
       return false;
     }
+  }
+
+  #start(experiment: Experiment, { outline, mesh }: Built, painting: PaintedShape | undefined): void {
+    this.#painting = painting;
+    this.experiment = experiment;
+    [this.outline, this.mesh] = [outline, mesh];
     this.#failed = undefined;
     this.#good = Float32Array.from(this.mesh.positions);
     this.#show();
@@ -137,17 +162,13 @@ export class Lesson {
     this.#audience.mesh();
     this.#audience.structure();
     this.#change();
-    return true;
   }
 
-  setVertices(vertices: number): void {
-    this.start({ ...this.experiment, vertices }, this.#painting);
-    this.#ease = undefined;
-  }
-
-  #build(experiment: Experiment): { outline: Shape; mesh: PlaneMesh } {
-    const outline = shapeOf(experiment.shape)?.outline() ?? experiment.outline ?? [];
-    return { outline, mesh: meshShape(outline, { vertices: experiment.vertices }) };
+  /** Says whether there is such a mesh. */
+  setVertices(vertices: number): boolean {
+    const made = this.start({ ...this.experiment, vertices }, this.#painting);
+    if (made) this.#ease = undefined;
+    return made;
   }
 
   #show(): void {
@@ -180,13 +201,24 @@ export class Lesson {
 
   /** What puts handle `i` back to where it is now. */
   hold(i: number): () => void {
-    const { move, turn } = this.experiment.handles[i] as Handle;
+    const held = this.experiment.handles[i];
+    if (!held) return () => {};
+    const { move, turn } = held;
     return () => {
       const handle = this.experiment.handles[i];
-      if (!handle) return;
+      // It may be another one by now, of another shape.
+      if (handle !== held) return;
       [handle.move, handle.turn] = [move, turn];
       this.#moved();
     };
+  }
+
+  /** Puts the handle back to where it is at rest. */
+  relax(i: number): void {
+    const handle = this.experiment.handles[i];
+    if (!handle) return;
+    [handle.move, handle.turn] = [[0, 0], 0];
+    this.#moved();
   }
 
   /** Takes the handle elsewhere at rest; its pose stays relative to that. */
@@ -284,10 +316,11 @@ export class Lesson {
   drawTiles(next: () => Tile | undefined): void {
     if (!this.deformer) return;
     drawTiles(this.picture, this.deformer, this.experiment.handles, next);
-    this.#drawShown();
+    this.repaint();
   }
 
-  #drawShown(): void {
+  /** Draws the shape as it is, at once. */
+  repaint(): void {
     const { show, picked } = this.experiment;
     const kind = weightsOf(this.method);
     let weights: Float64Array | undefined;
@@ -373,7 +406,7 @@ export class Lesson {
     }
     this.took = performance.now() - begun;
     this.picture.moved();
-    this.#drawShown();
+    this.repaint();
     this.#audience.frame();
     // Iterations go on for a while when the handles stand still.
     if (this.#ease || (unfinished && this.#rounds++ < MOST_ROUNDS)) this.#next();
@@ -386,6 +419,25 @@ export class Lesson {
       this.#audience.rest();
     }, REST);
   }
+}
+
+interface Built {
+  readonly outline: Shape;
+  readonly mesh: PlaneMesh;
+}
+
+/** Throws on an outline that is none. */
+function build({ shape, outline: own, vertices }: Experiment): Built {
+  const outline = shapeOf(shape)?.outline() ?? own ?? [];
+  return { outline, mesh: meshShape(outline, { vertices }) };
+}
+
+function standIn(error: unknown): PageError {
+  return new PageError(
+    'link-not-whole',
+    `The outline in this link cannot be shown, and the gingerbread man stands in for it: ${explain(error).message}`,
+    'Check that the link was copied whole, or draw the outline again.',
+  );
 }
 
 function notFinite(): HandlebodyError {

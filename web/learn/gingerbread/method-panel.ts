@@ -43,6 +43,10 @@ export class MethodPanel {
       input.checked = input.value === (input.name === 'family' ? method.family : method.id);
   }
 
+  focus(): void {
+    this.#families.querySelector<HTMLElement>('input:checked')?.focus();
+  }
+
   /** To another family, with the same kind of weights where it has them. */
   #turnTo(family: Family): void {
     const now = this.#family && methodOf(this.#last.get(this.#family) ?? '');

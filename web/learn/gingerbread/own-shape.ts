@@ -3,9 +3,10 @@ import { centered, checkShape, type Shape } from '../../models/shape.ts';
 import { h, svg } from '../../ui/dom.ts';
 
 interface OwnActions {
-  /** A sound outline, two units large. */
+  /** A sound outline, two units large: the sheet stays open until it is hidden. */
   take(outline: Shape): void;
   open(): void;
+  /** Nobody wants it any more. */
   cancel(): void;
   trouble(error: unknown): void;
 }
@@ -65,8 +66,8 @@ export class OwnShape {
 
   show(): void {
     this.#clear();
+    // The focus stays with the choice: arrow keys go on from there.
     this.element.hidden = false;
-    this.element.querySelector<HTMLElement>('#open')?.focus({ preventScroll: true });
   }
 
   hide(): void {
@@ -74,9 +75,7 @@ export class OwnShape {
   }
 
   cancel(): void {
-    if (this.element.hidden) return;
-    this.hide();
-    this.#actions.cancel();
+    if (!this.element.hidden) this.#actions.cancel();
   }
 
   #begin(event: PointerEvent, sheet: HTMLElement): void {
@@ -130,7 +129,6 @@ export class OwnShape {
       const shape = rings.map(withoutRepeats);
       checkShape(shape);
       this.#actions.take(centered(shape, 2).shape);
-      this.hide();
     } catch (error) {
       this.#actions.trouble(error);
     }

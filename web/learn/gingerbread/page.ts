@@ -1,10 +1,17 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import type { Shape } from '../../models/shape.ts';
+import { writeAddress } from '../../ui/address.ts';
+import { copyLink } from '../../ui/copy-link.ts';
 import { byId, h } from '../../ui/dom.ts';
-import { explain } from '../../ui/explain.ts';
+import { isDragging } from '../../ui/drag.ts';
+import { lazy, NotFetched } from '../../ui/lazy.ts';
+import { PageError } from '../../ui/page-error.ts';
+import { onInterruption, onPaper, onScreenChange } from '../../ui/screen.ts';
+import { Trouble } from '../../ui/trouble.ts';
 import { initial, portable } from './address.ts';
 import { captionOf, legend } from './captions.ts';
-import { type ShapeName, VERTICES } from './experiment.ts';
+import type { Deformer } from './deformer.ts';
+import { MOST_HANDLES, type ShapeName, VERTICES } from './experiment.ts';
 import { listenForFiles } from './files.ts';
 import { HandlePanel } from './handle-panel.ts';
 import { Handles } from './handles.ts';
@@ -18,6 +25,10 @@ import { Requirements } from './requirements.ts';
 import { shapeOf } from './shapes.ts';
 import { Strip } from './strip.ts';
 
+/** Only who opens a picture needs what traces it. */
+const picturePart = lazy(() => import('./open-picture.ts'), 'The part of this page that opens pictures');
+const slabPart = lazy(() => import('./interior.ts'), 'The part of this page that measures distances');
+
 /** Brings the parts of the page together. */
 export class Page {
   readonly #lesson: Lesson;
@@ -30,7 +41,7 @@ export class Page {
   readonly #main = byId('lesson');
   readonly #live = byId('live');
   readonly #note = byId('note');
-  readonly #trouble = byId('trouble');
+  readonly trouble = new Trouble(byId('trouble'), () => document.querySelector('input[name=shape]:checked'));
   readonly #caption = h('p', { class: 'caption' });
   readonly #flips = h('span', {});
   readonly #legend: HTMLElement;
@@ -49,24 +60,33 @@ export class Page {
     'aria-label': 'Picture',
     accept: 'image/png,image/svg+xml,image/webp,.png,.svg',
   });
-  #baking: AbortController | undefined;
+  #baking: { readonly deformer: Deformer; readonly kind: DistanceKind; readonly stop: AbortController } | undefined;
+  /** The method of which the picture is: interior radial basis functions only when their distances are there. */
+  #answered: MethodId = initial().method;
+  /** The file that was opened last. */
+  #opened: File | undefined;
   #handlesSeen = '';
   #meshSeen: unknown;
 
   constructor(picture: Picture) {
     const area = byId('picture');
-    const size = () => picture.resize(area.clientWidth, area.clientHeight);
+    const size = () => {
+      const { clientWidth: width, clientHeight: height } = area;
+      area.style.setProperty('--shape', `${width} / ${height}`);
+      picture.resize(width, height);
+    };
     size();
     const lesson = new Lesson(picture, {
       mesh: () => this.#mesh(),
       structure: () => this.#structure(),
       frame: () => this.#frame(),
       busy: (said, part) => this.#busy(said, part),
-      trouble: (error) => this.#tell(error),
+      trouble: (error) => (error === undefined ? this.trouble.clear() : this.trouble.tell(error)),
       rest: () => this.#rest(),
     });
     this.#lesson = lesson;
-    this.#handles = new Handles(byId('overlay'), lesson, () => this.#pause());
+    const adds = h('button', { type: 'button', class: 'button small', id: 'add-point' }, 'Add a point');
+    this.#handles = new Handles(byId('overlay'), lesson, adds);
     const choose = (id: MethodId) => lesson.setMethod(id);
     this.#methods = new MethodPanel(choose);
     this.#handlePanel = new HandlePanel(lesson, () => this.#pause());
@@ -77,8 +97,8 @@ export class Page {
     this.#own = new OwnShape({
       take: (outline) => this.#takeOutline(outline),
       open: () => this.#file.click(),
-      cancel: () => this.#markShape(),
-      trouble: (error) => this.#tell(error),
+      cancel: () => this.#leaveOwn(),
+      trouble: (error) => this.trouble.tell(error),
     });
     this.#weightBox = h('input', {
       type: 'checkbox',
@@ -97,26 +117,35 @@ export class Page {
       min: VERTICES.low,
       max: VERTICES.high,
       step: 50,
-      onchange: () => lesson.setVertices(this.#vertices.valueAsNumber),
+      onchange: () => {
+        if (!lesson.setVertices(this.#vertices.valueAsNumber)) this.#vertices.value = String(lesson.experiment.vertices);
+      },
     });
-    this.#remove = h('button', { type: 'button', class: 'button small', onclick: () => lesson.remove(lesson.picked) }, 'Remove');
-    this.#lay();
-    new ResizeObserver(() => {
+    const remove = () => {
+      const { picked } = lesson;
+      lesson.remove(picked);
+      this.#handles.focusNear(picked);
+    };
+    this.#remove = h('button', { type: 'button', class: 'button small', onclick: remove }, 'Remove');
+    this.#lay(adds);
+    onScreenChange(area, () => {
       size();
-      lesson.redraw();
+      lesson.repaint();
+      this.#handles.draw();
       this.#strip.refresh();
-    }).observe(area);
-    const canvas = byId('canvas');
-    canvas.addEventListener('webglcontextlost', () =>
-      this.#busy('The graphics card was interrupted; the picture comes back by itself.'),
-    );
-    canvas.addEventListener('webglcontextrestored', () => {
-      this.#busy(undefined);
-      lesson.redraw();
     });
-    for (const input of document.querySelectorAll<HTMLInputElement>('input[name=shape]'))
+    const canvas = byId<HTMLCanvasElement>('canvas');
+    onPaper(canvas, () => lesson.repaint());
+    onInterruption(
+      canvas,
+      (words) => this.#busy(words || undefined),
+      () => lesson.redraw(),
+    );
+    for (const input of document.querySelectorAll<HTMLInputElement>('input[name=shape]')) {
       input.addEventListener('change', () => this.#turnTo(input.value as ShapeName));
-    byId('copy').addEventListener('click', () => void this.#copy());
+      input.addEventListener('keydown', (event) => event.key === 'Escape' && this.#own.cancel());
+    }
+    copyLink(byId('copy'), this.#live, () => writeAddress(lesson.address));
     addEventListener('hashchange', () => lesson.open(location.hash));
     listenForFiles(this.#file, byId('veil'), (file) => void this.#takeFile(file));
     this.#mesh();
@@ -128,20 +157,24 @@ export class Page {
     this.#lesson.connect(hb);
   }
 
-  #lay(): void {
+  get address(): string {
+    return this.#lesson.address;
+  }
+
+  #lay(addPoint: HTMLElement): void {
     const button = (id: string, text: string, act: () => void) =>
       h('button', { type: 'button', class: 'button small', id, onclick: act }, text);
     const added = (add: () => boolean) => () => {
-      if (!add()) return;
+      if (!add()) return this.trouble.tell(noRoom(this.#lesson.handles.length));
       this.#handles.draw();
       this.#handles.focus(this.#lesson.picked);
     };
+    addPoint.addEventListener(
+      'click',
+      added(() => this.#lesson.addPoint()),
+    );
     byId('tools').append(
-      button(
-        'add-point',
-        'Add a point',
-        added(() => this.#lesson.addPoint()),
-      ),
+      addPoint,
       button(
         'add-bone',
         'Add a bone',
@@ -188,32 +221,34 @@ export class Page {
       this.#own.show();
       return;
     }
-    this.#own.hide();
-    if (this.#lesson.start({ ...initial(shape), method: this.#lesson.experiment.method }))
-      history.pushState(null, '', `#${this.#lesson.address}`);
+    if (this.#lesson.start({ ...initial(shape), method: this.#lesson.experiment.method })) writeAddress(this.#lesson.address, true);
   }
 
   #takeOutline(outline: Shape, painting?: PaintedShape): void {
     const { method } = this.#lesson.experiment;
-    if (!this.#lesson.start({ ...initial('own', portable(outline)), method }, painting)) return;
-    this.#own.hide();
-    history.pushState(null, '', `#${this.#lesson.address}`);
+    if (this.#lesson.start({ ...initial('own', portable(outline)), method }, painting)) writeAddress(this.#lesson.address, true);
   }
 
-  #markShape(): void {
-    for (const input of document.querySelectorAll<HTMLInputElement>('input[name=shape]'))
+  /** The choice of a shape says again what is shown. */
+  #leaveOwn(): void {
+    const focused = this.#own.element.contains(document.activeElement);
+    this.#own.hide();
+    for (const input of document.querySelectorAll<HTMLInputElement>('input[name=shape]')) {
       input.checked = input.value === this.#lesson.experiment.shape;
+      if (focused && input.checked) input.focus();
+    }
   }
 
   async #takeFile(file: File): Promise<void> {
+    this.#opened = file;
     try {
       this.#busy('Tracing the picture …');
-      // Only who opens a picture needs what traces it.
-      const { openPicture } = await import('./open-picture.ts');
+      const { openPicture } = await picturePart(this.#lesson.address);
       const { outline, painting } = await openPicture(file);
-      this.#takeOutline(outline, painting);
+      // Unless another one was opened meanwhile.
+      if (this.#opened === file) this.#takeOutline(outline, painting);
     } catch (error) {
-      this.#tell(error);
+      this.trouble.tell(error, error instanceof NotFetched ? () => void this.#takeFile(file) : undefined);
     } finally {
       this.#busy(undefined);
     }
@@ -223,7 +258,7 @@ export class Page {
     const { experiment, mesh } = this.#lesson;
     const known = shapeOf(experiment.shape);
     byId('title').textContent = known?.name ?? 'Your own shape';
-    this.#markShape();
+    this.#leaveOwn();
     this.#vertices.value = String(experiment.vertices);
     const [vertices, triangles] = [mesh.positions.length / 2, mesh.triangles.length / 3];
     this.#facts.textContent = `${vertices.toLocaleString('en')} vertices, ${triangles.toLocaleString('en')} triangles, smallest angle ${mesh.smallestAngle.toFixed(1)}°.`;
@@ -233,7 +268,7 @@ export class Page {
         h('button', { type: 'button', class: 'button small', onclick: () => this.#lesson.strike(handles(), method) }, name),
       ),
     );
-    this.#baking?.abort();
+    this.#baking?.stop.abort();
   }
 
   // Frames
@@ -253,7 +288,8 @@ export class Page {
     this.#remove.textContent = handles[picked] ? `Remove ${handles[picked]?.end ? 'bone' : 'handle'} ${picked}` : 'Remove';
     this.#flips.textContent = '';
     this.#caption.replaceChildren(h('strong', {}, method.title), ` ${captionOf(method, handles)}`, this.#flips);
-    if (method.family === 'irbf') void this.#bake(method);
+    if (method.family !== 'irbf') this.#answered = method.id;
+    else void this.#bake(method);
   }
 
   #frame(): void {
@@ -270,13 +306,12 @@ export class Page {
 
   #rest(): void {
     const lesson = this.#lesson;
-    if (this.#handles.dragging || !lesson.deformer) return;
+    if (isDragging() || !lesson.deformer) return;
     // Its end is drawn, and comes to rest again.
     void lesson.finishBounded();
     if (lesson.deformer.isFinishing) return;
     const { address } = lesson;
-    if (location.hash.slice(1) !== address && !(location.hash === '' && address === 'man'))
-      history.replaceState(null, '', `#${address}`);
+    if (location.hash !== '' || address !== 'man') writeAddress(address);
     const { picked, handles } = lesson;
     this.#live.textContent = handles[picked] ? `${lesson.describe(picked)}.` : '';
     const rests = handles.map(({ rest, end }) => `${rest} ${end}`).join(';');
@@ -312,58 +347,72 @@ export class Page {
     this.#note.replaceChildren(said, ...(part === undefined ? [] : [h('progress', { max: 1, value: part, 'aria-label': said })]));
   }
 
-  #tell(error: unknown): void {
-    this.#trouble.hidden = error === undefined;
-    if (error === undefined) return;
-    const { message, remedy } = explain(error);
-    this.#trouble.textContent = `${message} ${remedy}`;
-  }
-
   // Interior radial basis functions
 
-  async #bake({ kind }: Method): Promise<void> {
-    const { deformer } = this.#lesson;
-    if (!deformer || deformer.hasSlab(kind as DistanceKind) || this.#baking) return;
-    const baking = new AbortController();
+  /** Prepares a kind of distances; where that is cancelled or fails, the method is again the one that the picture is of. */
+  async #bake(method: Method): Promise<void> {
+    const lesson = this.#lesson;
+    const { deformer } = lesson;
+    const kind = method.kind as DistanceKind;
+    if (!deformer) return;
+    if (deformer.hasSlab(kind)) {
+      this.#answered = method.id;
+      return;
+    }
+    if (this.#baking?.deformer === deformer && this.#baking.kind === kind) return;
+    this.#baking?.stop.abort();
+    const stop = new AbortController();
+    const baking = { deformer, kind, stop };
     this.#baking = baking;
     const bar = h('progress', { max: 1, value: 0, 'aria-label': 'Preparing interior distances' });
     this.#note.replaceChildren(
       h('span', {}, kind === 'interior' ? 'Measuring distances through the inside …' : 'Measuring distances …'),
       bar,
-      h('button', { type: 'button', class: 'button small', onclick: () => baking.abort() }, 'Cancel'),
+      h('button', { type: 'button', class: 'button small', onclick: () => stop.abort() }, 'Cancel'),
     );
     this.#note.hidden = false;
+    let refused: unknown;
     try {
-      const { bakeSlab } = await import('./interior.ts');
-      const slab = await bakeSlab(deformer.hb, deformer.mesh, kind as DistanceKind, {
-        signal: baking.signal,
+      const { bakeSlab } = await slabPart(lesson.address);
+      const slab = await bakeSlab(deformer.hb, deformer.mesh, kind, {
+        signal: stop.signal,
         onProgress: (part) => {
           bar.value = part;
         },
+        onFallback: () => this.trouble.tell(withoutWorker()),
       });
-      if (this.#lesson.deformer === deformer) deformer.setSlab(kind as DistanceKind, slab);
+      if (lesson.deformer === deformer) deformer.setSlab(kind, slab);
       else slab.dispose();
     } catch (error) {
-      if (!baking.signal.aborted) this.#tell(error);
-    } finally {
-      this.#baking = undefined;
-      this.#busy(undefined);
+      refused = error;
     }
-    this.#lesson.redraw();
+    // Something else is being prepared.
+    if (this.#baking !== baking) return;
+    this.#baking = undefined;
+    // What was stopped by a button there.
+    const focused = this.#note.contains(document.activeElement);
+    this.#busy(undefined);
+    const asked = lesson.deformer === deformer && lesson.method.id === method.id;
+    if (refused !== undefined && asked) lesson.setMethod(this.#answered);
+    if (refused !== undefined && !stop.signal.aborted)
+      this.trouble.tell(refused, refused instanceof NotFetched ? () => lesson.setMethod(method.id) : undefined);
+    // Another shape may have come meanwhile, for which nothing is prepared.
+    this.#structure();
+    if (focused) this.#methods.focus();
+    lesson.redraw();
   }
+}
 
-  async #copy(): Promise<void> {
-    const { address } = this.#lesson;
-    history.replaceState(null, '', `#${address}`);
-    try {
-      await navigator.clipboard.writeText(location.href);
-      this.#live.textContent = 'The link is copied.';
-      byId('copy').textContent = 'Copied';
-      setTimeout(() => {
-        byId('copy').textContent = 'Copy link';
-      }, 1500);
-    } catch {
-      this.#live.textContent = 'The link is in the address bar.';
-    }
-  }
+function noRoom(handles: number): PageError {
+  return handles >= MOST_HANDLES
+    ? new PageError('too-many-handles', `There are ${handles} handles already.`, 'Remove one to add another.')
+    : new PageError('no-room', 'There is no room for a bone here.', 'Add a point, or move other handles away.');
+}
+
+function withoutWorker(): PageError {
+  return new PageError(
+    'worker-unavailable',
+    'No second thread could be started here: while distances are measured, the page answers late.',
+    'Open the page in a window of its own if it takes too long.',
+  );
 }

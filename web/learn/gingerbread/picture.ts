@@ -16,9 +16,9 @@ import {
   Vector4,
   WebGLRenderer,
 } from 'three';
+import { ColorMap } from '../../figures/kit/color-map.ts';
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import { extentOf } from '../../models/shape.ts';
-import { ColorMap } from '../interpolation/color-map.ts';
 import type { Place } from './experiment.ts';
 import type { PaintedShape } from './icing.ts';
 import { FRAGMENT, VERTEX } from './shader.ts';
@@ -147,6 +147,10 @@ export class Picture {
     this.#renderer.setSize(...this.#size, false);
   }
 
+  get size(): Place {
+    return this.#size;
+  }
+
   /** Pixels a unit of the shape takes. */
   get scale(): number {
     return Math.min(this.#size[0] / (2 * this.#half[0]), this.#size[1] / (2 * this.#half[1]));
@@ -162,6 +166,8 @@ export class Picture {
   }
 
   render(): void {
+    // The window may have gone to a screen with other pixels.
+    if (this.#ratio !== Math.min(devicePixelRatio, 2)) this.resize(...this.#size);
     this.#renderer.setScissorTest(false);
     this.#renderer.setViewport(0, 0, ...this.#size);
     this.#renderer.clear();

@@ -1,18 +1,21 @@
+import { colorRange } from '../../figures/kit/scale.ts';
+import { decoded, numbersOf, pairsOf, quoted } from '../../ui/address.ts';
 import {
   copyOf,
   type Experiment,
   type Frame,
+  fitFrame,
   MOST_MODELS,
   MOST_POINTS,
   type Model,
   PLAIN,
+  placeOf,
   type Settings,
   type Show,
 } from './experiment.ts';
 import { kindOf, modelOf } from './interpolants.ts';
 import { parseSetting, settingText } from './parameter.ts';
 import { PRESETS, presetOf } from './presets.ts';
-import { colorRange } from './scale.ts';
 
 /*
  * The address says what the page shows: "#fig-9" is a preset, and "#from=fig-9&p=0,1;2,3&m=shepard:power=1~rbf:kernel=cubic" one that was
@@ -30,33 +33,49 @@ export function toAddress(experiment: Experiment): string {
   return join(new Map([['from', experiment.preset], ...changed]));
 }
 
-/** The experiment at an address; the first preset where it says nothing that can be read. */
-export function fromAddress(hash: string): Experiment {
-  const text = decode(hash.replace(/^#/, ''));
+const KEYS = ['from', 'd', 'p', 'm', 'in', 'range', 'show', 'pick'];
+
+/** The experiment at an address; the first preset where it says nothing that can be read. What had to be left out goes to `left`. */
+export function fromAddress(hash: string, left: string[] = []): Experiment {
+  const text = decoded(hash);
   const preset = presetOf(text);
   if (preset) return preset.make();
-  const given = new Map(
-    text.split('&').flatMap((part) => {
-      const at = part.indexOf('=');
-      return at > 0 ? [[part.slice(0, at), part.slice(at + 1)] as const] : [];
-    }),
-  );
-  const base = presetOf(given.get('from') ?? '') ?? (given.get('d') === '2' ? presetOf('plane') : undefined) ?? PRESETS[0];
+  const given = pairsOf(text, KEYS, left);
+  const take = <T>(key: string, read: (text: string) => T | undefined): T | undefined => {
+    const value = given.get(key);
+    const taken = value === undefined ? undefined : read(value);
+    if (value !== undefined && taken === undefined) left.push(quoted(`${key}=${value}`));
+    return taken;
+  };
+  const base = take('from', presetOf) ?? (given.get('d') === '2' ? presetOf('plane') : undefined) ?? PRESETS[0];
   const experiment = copyOf((base as (typeof PRESETS)[number]).make());
-  if (given.get('d') && given.get('d') !== String(experiment.dimension)) return experiment;
-  const rows = readPoints(given.get('p') ?? '', experiment.dimension);
+  const { dimension } = experiment;
+  const fitting = take('d', (d) => (d === String(dimension) ? d : undefined)) ?? !given.has('d');
+  // What was written for the other dimension means nothing here.
+  if (!fitting) return experiment;
+  const rows = take('p', (p) => readPoints(p, dimension, left));
   if (rows) Object.assign(experiment, rows);
-  experiment.models = readModels(given.get('m'), experiment.dimension) ?? experiment.models;
-  const frame = numbers(given.get('in') ?? '');
-  if (frame?.length === 4 && (frame[0] as number) < (frame[1] as number) && (frame[2] as number) < (frame[3] as number))
-    experiment.frame = frame as unknown as Frame;
-  const range = numbers(given.get('range') ?? '');
-  if (range?.length === 2 && (range[0] as number) < (range[1] as number)) experiment.range = range as unknown as [number, number];
+  experiment.models = take('m', (m) => readModels(m, dimension, left)) ?? experiment.models;
+  const frame = take('in', (edges) => readSpans(edges, 2)) as Frame | undefined;
+  if (frame) experiment.frame = frame;
+  else if (rows && isOutside(experiment)) fitFrame(experiment);
+  const range = take('range', (ends) => readSpans(ends, 1)) as readonly [number, number] | undefined;
+  if (range) experiment.range = range;
   else if (rows && !given.has('from')) experiment.range = colorRange(experiment.values);
-  if (given.has('show')) experiment.show = readShow(given.get('show') ?? '');
-  const picked = Number(given.get('pick') ?? experiment.picked);
-  experiment.picked = Number.isInteger(picked) && picked < experiment.values.length ? picked : -1;
+  experiment.show = take('show', (show) => readShow(show, left)) ?? experiment.show;
+  const count = experiment.values.length;
+  const isPoint = (i: number) => Number.isInteger(i) && i >= -1 && i < count;
+  experiment.picked = take('pick', (pick) => (pick !== '' && isPoint(Number(pick)) ? Number(pick) : undefined)) ?? -1;
   return experiment;
+}
+
+/** Whether a point would not be seen. */
+function isOutside(experiment: Experiment): boolean {
+  const [left, right, bottom, top] = experiment.frame;
+  return experiment.values.some((_, i) => {
+    const [across, up] = placeOf(experiment, i);
+    return across < left || across > right || up < bottom || up > top;
+  });
 }
 
 function parts(experiment: Experiment): Map<string, string> {
@@ -80,19 +99,24 @@ function modelText({ kind, settings, shown }: Model): string {
   return [kind, ...text, ...(shown ? [] : ['hidden'])].join(':');
 }
 
-function readModels(text: string | undefined, dimension: 1 | 2): Model[] | undefined {
-  if (text === undefined) return undefined;
+function readModels(text: string, dimension: 1 | 2, left: string[]): Model[] {
   const models: Model[] = [];
-  for (const part of text.split('~').slice(0, MOST_MODELS)) {
+  const parts = text === '' ? [] : text.split('~');
+  if (parts.length > MOST_MODELS) left.push(`${parts.length - MOST_MODELS} of ${parts.length} interpolants`);
+  for (const part of parts.slice(0, MOST_MODELS)) {
     const [id = '', ...given] = part.split(':');
     const kind = kindOf(id);
-    if (!kind?.dimensions.includes(dimension)) continue;
+    if (!kind?.dimensions.includes(dimension)) {
+      left.push(quoted(part));
+      continue;
+    }
     const settings: Record<string, Settings[string]> = {};
     for (const pair of given) {
       const [name, value = ''] = pair.split('=');
       const parameter = kind.parameters.find((candidate) => candidate.id === name);
       const setting = parameter && parseSetting(parameter, value);
       if (parameter && setting !== undefined) settings[parameter.id] = setting;
+      else if (pair !== 'hidden') left.push(quoted(pair));
     }
     const model = modelOf(kind, settings, models);
     model.shown = !given.includes('hidden');
@@ -114,45 +138,45 @@ function showText(show: Show): string {
   return said.join(',');
 }
 
-function readShow(text: string): Show {
+function readShow(text: string, left: string[]): Show {
   const show = { ...PLAIN };
   for (const word of text.split(',')) {
     const [name = '', ...rest] = word.split('.');
     const value = rest.join('.');
     if (name === 'kernels' || name === 'cardinal' || name === 'surface') show[name] = true;
-    if (name === 'no-isolines') show.isolines = false;
-    if (name === 'around-zero') show.colors = 'around-zero';
-    if (name === 'outliers' && (value === 'row-sum' || value === 'leave-one-out' || value === 'residual')) show.outliers = value;
-    if (name === 'section' && (value === 'across' || value === 'up' || value === 'diagonal')) show.section = value;
-    if (name === 'at' && Number.isFinite(Number(value))) show.sectionAt = Number(value);
+    else if (name === 'no-isolines') show.isolines = false;
+    else if (name === 'around-zero') show.colors = 'around-zero';
+    else if (name === 'outliers' && (value === 'row-sum' || value === 'leave-one-out' || value === 'residual'))
+      show.outliers = value;
+    else if (name === 'section' && (value === 'across' || value === 'up' || value === 'diagonal')) show.section = value;
+    else if (name === 'at' && numbersOf(value)?.length === 1) show.sectionAt = Number(value);
+    else if (word !== '') left.push(quoted(word));
   }
   return show;
 }
 
-function readPoints(text: string, dimension: number): { points: number[]; values: number[] } | undefined {
+function readPoints(text: string, dimension: number, left: string[]): { points: number[]; values: number[] } | undefined {
   const [points, values]: [number[], number[]] = [[], []];
-  for (const row of text.split(';').slice(0, MOST_POINTS)) {
-    const read = numbers(row);
-    if (read?.length !== dimension + 1) continue;
+  const rows = text.split(';');
+  for (const row of rows) {
+    const read = numbersOf(row);
+    if (read?.length !== dimension + 1 || values.length === MOST_POINTS) continue;
     points.push(...read.slice(0, dimension));
     values.push(read[dimension] as number);
   }
-  return values.length > 0 ? { points, values } : undefined;
+  if (values.length === 0) return undefined;
+  if (values.length < rows.length)
+    left.push(`${(rows.length - values.length).toLocaleString('en')} of ${rows.length.toLocaleString('en')} points`);
+  return { points, values };
 }
 
-function numbers(text: string): number[] | undefined {
-  const read = text.split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part)));
-  return read.every((number) => Number.isFinite(number) && Math.abs(number) < 1e9) ? read : undefined;
+/** Pairs of numbers, in each the smaller one first. */
+function readSpans(text: string, count: number): readonly number[] | undefined {
+  const read = numbersOf(text);
+  const isUp = (k: number) => (read?.[2 * k] as number) < (read?.[2 * k + 1] as number);
+  return read?.length === 2 * count && Array.from({ length: count }, (_, k) => k).every(isUp) ? read : undefined;
 }
 
 function join(map: ReadonlyMap<string, string>): string {
   return [...map].map(([key, text]) => `${key}=${text}`).join('&');
-}
-
-function decode(text: string): string {
-  try {
-    return decodeURIComponent(text);
-  } catch {
-    return text;
-  }
 }

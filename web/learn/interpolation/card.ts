@@ -1,13 +1,13 @@
+import { swatch } from '../../figures/kit/swatch.ts';
+import { brief, conditionText, health } from '../../figures/kit/words.ts';
 import { h } from '../../ui/dom.ts';
 import { type Control, controlOf } from './controls.ts';
 import type { Settings } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { kindOf } from './interpolants.ts';
 import type { Parameter } from './parameter.ts';
-import { swatch } from './swatch.ts';
 import { WarningList } from './warning-list.ts';
 import { WeightList } from './weight-list.ts';
-import { brief, conditionText, health } from './words.ts';
 
 export interface CardActions {
   set(key: number, settings: Settings): void;
@@ -48,7 +48,7 @@ export class Card {
       controlOf(parameter, (setting) => actions.set(key, { [parameter.id]: setting })),
     ]);
     const known = new Set(parameters.map(({ id }) => id));
-    this.#warnings = new WarningList(known, (settings) => actions.set(key, settings));
+    this.#warnings = new WarningList(known, (settings) => actions.set(key, settings), this.#shown);
     this.#verdict.append(this.#condition, this.#misfit);
 
     const of = (rare: boolean) =>
@@ -95,8 +95,9 @@ export class Card {
     if (open) this.#fill();
   }
 
-  focus(): void {
-    this.#shown.focus();
+  /** What takes the focus for the card: the box that says its name. */
+  get name(): HTMLElement {
+    return this.#shown;
   }
 
   /** Writes what has changed; `tolerance` is how far a curve may miss its points and still pass through them. */

@@ -1,8 +1,8 @@
+import { fromLog, toLog } from '../../figures/kit/scale.ts';
+import { brief } from '../../figures/kit/words.ts';
 import { h } from '../../ui/dom.ts';
 import type { Setting } from './experiment.ts';
 import type { Choice, Parameter, Range, Switch } from './parameter.ts';
-import { fromLog, toLog } from './scale.ts';
-import { brief } from './words.ts';
 
 /** A labelled control for one setting. */
 export interface Control {

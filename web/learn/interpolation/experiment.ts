@@ -1,4 +1,4 @@
-import { colorRange } from './scale.ts';
+import { colorRange } from '../../figures/kit/scale.ts';
 
 export type Setting = number | string | boolean;
 export type Settings = Readonly<Record<string, Setting>>;
@@ -121,6 +121,8 @@ export function removePoint(experiment: Experiment, i: number): void {
   const { dimension } = experiment;
   experiment.points.splice(i * dimension, dimension);
   experiment.values.splice(i, 1);
+  // Another one that was chosen stays so.
+  if (i < experiment.picked) experiment.picked--;
   experiment.picked = Math.min(experiment.picked, experiment.values.length - 1);
 }
 

@@ -1,8 +1,8 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
+import { curvePath } from '../../figures/kit/path.ts';
 import { h, svg } from '../../ui/dom.ts';
 import type { Experiment } from './experiment.ts';
 import { dataOf, kindOf } from './interpolants.ts';
-import { curvePath } from './path.ts';
 import { PRESETS } from './presets.ts';
 
 const [WIDTH, HEIGHT] = [96, 54];

@@ -1,7 +1,9 @@
 import type { HandlebodyRuntime, Interpolant, Rbf, RbfReport } from '../../../wasm/ts/runtime.ts';
+import type { Label } from '../../figures/kit/chart.ts';
+import { PageError } from '../../ui/page-error.ts';
 import type { Model } from './experiment.ts';
 import { kindOf, labelOf } from './interpolants.ts';
-import type { Data, Label } from './kind.ts';
+import type { Data } from './kind.ts';
 
 /** What can be said of a fit in numbers. */
 interface Verdict {
@@ -64,7 +66,16 @@ export class Fit {
     made.evaluate(points, this.#misses);
     let misfit = 0;
     for (let i = 0; i < values.length; i++) misfit = Math.max(misfit, Math.abs((this.#misses[i] ?? 0) - (values[i] ?? 0)));
+    if (!Number.isFinite(misfit) && this.model.settings.outside !== 'nan') throw overflow();
     const told = made as Partial<Pick<Rbf, 'report' | 'coefficients'>>;
     return { misfit, report: told.report?.(), coefficients: told.coefficients?.() };
   }
+}
+
+function overflow(): PageError {
+  return new PageError(
+    'fit-overflow',
+    'The numbers of these points are too large, or too far apart, to be computed with.',
+    'Give places and values of ordinary size.',
+  );
 }

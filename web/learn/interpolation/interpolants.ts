@@ -1,9 +1,10 @@
 import type { MovingWeight } from '../../../wasm/ts/runtime.ts';
+import type { Label } from '../../figures/kit/chart.ts';
+import { brief } from '../../figures/kit/words.ts';
 import { type Experiment, type Model, newModel, type Settings } from './experiment.ts';
-import type { Data, Kind, Label } from './kind.ts';
+import type { Data, Kind } from './kind.ts';
 import { type Choice, complete } from './parameter.ts';
 import { KERNEL_NAMES, rbf } from './rbf-kind.ts';
-import { brief } from './words.ts';
 
 const shepard: Kind = {
   id: 'shepard',

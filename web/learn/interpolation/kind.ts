@@ -1,4 +1,5 @@
 import type { HandlebodyRuntime, Interpolant } from '../../../wasm/ts/runtime.ts';
+import type { Label } from '../../figures/kit/chart.ts';
 import type { Settings } from './experiment.ts';
 import type { Parameter } from './parameter.ts';
 
@@ -7,12 +8,6 @@ export interface Data {
   readonly dimension: 1 | 2;
   readonly points: readonly number[];
   readonly values: readonly number[];
-}
-
-export interface Label {
-  readonly name: string;
-  /** What tells it from others of its name; may be empty. */
-  readonly detail: string;
 }
 
 /** A kind of interpolant: what it is called, what can be set, how it is made. */

@@ -1,6 +1,6 @@
+import { swatch } from '../../figures/kit/swatch.ts';
 import { h } from '../../ui/dom.ts';
 import type { Fit } from './fit.ts';
-import { swatch } from './swatch.ts';
 
 /** Which line is whose, where there is no room beside the curves. */
 export class Legend {

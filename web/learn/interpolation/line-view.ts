@@ -1,12 +1,12 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
+import { Chart, type Curve, match } from '../../figures/kit/chart.ts';
+import { Handles, type PointActions } from '../../figures/kit/handles.ts';
+import { asLong, Samples } from '../../figures/kit/samples.ts';
 import { h, svg } from '../../ui/dom.ts';
-import { Chart, type Curve, match } from './chart.ts';
 import type { Experiment } from './experiment.ts';
 import type { Fit } from './fit.ts';
-import { Handles, type PointActions } from './handles.ts';
 import { dataOf } from './interpolants.ts';
 import { weightedKernels } from './kernel-curves.ts';
-import { asLong, Samples } from './samples.ts';
 import type { Picture, View } from './view.ts';
 
 /** Points on a line, their interpolants as curves through them. */
@@ -36,6 +36,9 @@ export class LineView implements View {
       },
       place: (px: number, py: number) => this.#chart.at(px, py),
       drag: (i: number, px: number, py: number) => actions.move(i, ...this.#chart.at(px, py)),
+      get size() {
+        return [chart.width, chart.height] as const;
+      },
       get spans() {
         const [left, right, bottom, top] = chart.frame;
         return [right - left, top - bottom] as const;
@@ -55,8 +58,8 @@ export class LineView implements View {
     return this.#chart.named;
   }
 
-  focusPoint(i: number): void {
-    this.#handles.element(i)?.focus();
+  handle(i: number): HTMLElement | undefined {
+    return this.#handles.element(i);
   }
 
   draw({ experiment, fits, outliers }: Picture): void {
@@ -76,10 +79,6 @@ export class LineView implements View {
   emphasize(key: number): void {
     this.#chart.emphasize(key);
     this.#weights.emphasize(key);
-  }
-
-  dispose(): void {
-    this.#handles.dispose();
   }
 
   #curve(fit: Fit, xs: Float64Array, sum: boolean): Curve {

@@ -1,4 +1,5 @@
 import { h } from '../../ui/dom.ts';
+import { focusNeighbor } from '../../ui/focus.ts';
 import { Card, type CardActions } from './card.ts';
 import type { Settings } from './experiment.ts';
 import type { Fit } from './fit.ts';
@@ -65,12 +66,13 @@ export class ModelList {
   /** Opens a card and takes the keyboard there. */
   reveal(key: number): void {
     this.#cards.get(key)?.open(true);
-    this.#cards.get(key)?.focus();
+    this.#cards.get(key)?.name.focus();
   }
 
-  /** Where the keyboard goes when a card is gone. */
-  focusAdd(): void {
-    this.#add.querySelector('summary')?.focus();
+  /** Where the keyboard goes when card `i` is gone. */
+  focusNear(i: number): void {
+    const names = [...this.#cards.values()].map(({ name }) => name);
+    focusNeighbor(names, i, this.#add.querySelector('summary'));
   }
 
   #offer(): void {

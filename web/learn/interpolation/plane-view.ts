@@ -1,18 +1,22 @@
+import { Chart } from '../../figures/kit/chart.ts';
+import { ColorMap } from '../../figures/kit/color-map.ts';
+import { ColorScale } from '../../figures/kit/color-scale.ts';
+import { FieldGrid, Pace } from '../../figures/kit/field.ts';
+import { FieldPanel, type Relief } from '../../figures/kit/field-panel.ts';
+import { asLong } from '../../figures/kit/samples.ts';
+import { type Line, pointsOn, roundRange, sectionOf, sectionSamples } from '../../figures/kit/section.ts';
+import { brief } from '../../figures/kit/words.ts';
 import { h, svg } from '../../ui/dom.ts';
-import { Chart } from './chart.ts';
-import { ColorMap } from './color-map.ts';
-import { ColorScale } from './color-scale.ts';
+import { lazy, NotFetched } from '../../ui/lazy.ts';
+import { Trouble } from '../../ui/trouble.ts';
 import type { Experiment } from './experiment.ts';
-import { FieldGrid, Pace } from './field.ts';
-import { FieldPanel } from './field-panel.ts';
 import type { Fit } from './fit.ts';
-import { asLong } from './samples.ts';
-import { type Line, pointsOn, roundRange, sectionOf, sectionSamples } from './section.ts';
 import type { Surfaces } from './surfaces.ts';
 import type { Picture, PlaneActions, View } from './view.ts';
-import { brief } from './words.ts';
 
 const SECTION_STEPS = 300;
+
+const surfacesPart = lazy(() => import('./surfaces.ts'), 'The part of this page that draws surfaces');
 
 /** Points in the plane, their interpolants as small multiples in one color scale: maps, or surfaces. */
 export class PlaneView implements View {
@@ -25,6 +29,7 @@ export class PlaneView implements View {
   readonly #section: Chart;
   readonly #sectionPart: HTMLElement;
   readonly #note = h('p', { class: 'soft', hidden: true });
+  readonly #trouble = new Trouble(this.#note, () => document.querySelector('.show-part input'));
   readonly #panels = new Map<number, FieldPanel>();
   readonly #grid = new FieldGrid();
   readonly #pace = new Pace();
@@ -35,7 +40,7 @@ export class PlaneView implements View {
   /** Whether the fields were last drawn at leisure. */
   #fine = false;
   #last: Picture | undefined;
-  #surfaces: Surfaces | 'coming' | 'failed' | undefined;
+  #surfaces: Surfaces | 'coming' | undefined;
 
   constructor(actions: PlaneActions) {
     this.#actions = actions;
@@ -46,8 +51,8 @@ export class PlaneView implements View {
     this.element = h('div', { class: 'plane-view' }, this.#fields, this.#note, this.#scale.element, this.#sectionPart);
   }
 
-  focusPoint(i: number): void {
-    this.#panels.get(this.#first)?.focusPoint(i);
+  handle(i: number): HTMLElement | undefined {
+    return this.#panels.get(this.#first)?.handle(i);
   }
 
   draw(picture: Picture): void {
@@ -64,10 +69,6 @@ export class PlaneView implements View {
     this.#section.emphasize(key);
   }
 
-  dispose(): void {
-    for (const panel of this.#panels.values()) panel.dispose();
-  }
-
   #draw({ experiment, fits, outliers, anew }: Picture, resting: boolean): void {
     const { show, picked, range } = experiment;
     const seen = fits.filter(({ model, interpolant }) => model.shown && interpolant);
@@ -80,7 +81,7 @@ export class PlaneView implements View {
       this.#fine = resting;
     }
     for (const panel of this.#panels.values())
-      panel.points(experiment, cardinal ? new ColorMap(show.colors, range[0], range[1]) : colors, outliers);
+      panel.points(experiment.values, cardinal ? new ColorMap(show.colors, range[0], range[1]) : colors, outliers);
 
     const title = cardinal
       ? `Weight of point ${picked}`
@@ -108,14 +109,14 @@ export class PlaneView implements View {
     const { size, queries } = this.#grid;
     for (const fit of fits) {
       const panel = this.#panels.get(fit.model.key);
-      if (panel?.side === 0) panel.measure();
+      panel?.measure();
       if (!panel || panel.side === 0) continue;
       panel.name(fit.label, fit.model.slot);
       panel.stale = fit.problem !== undefined;
-      panel.relief = surfaces && !cardinal ? surfaces : undefined;
-      panel.field.sample(fit, queries, cardinal ? picked : -1, experiment);
+      panel.relief = surfaces && !cardinal ? this.#relief(surfaces, experiment) : undefined;
+      panel.field.sample(fit.interpolant, queries, cardinal && !fit.problem ? picked : -1, experiment.values.length);
       if (surfaces) surfaces.paint(panel.context, panel.field.values, size, colors, experiment, cardinal);
-      else panel.paint(size, colors, show.isolines, line);
+      else panel.paint(size, colors, show.isolines, line?.ends);
     }
     if (fits.length > 0) this.#pace.took(performance.now() - start, size);
   }
@@ -134,13 +135,13 @@ export class PlaneView implements View {
     this.#first = first;
     for (const { model } of fits) {
       if (this.#panels.has(model.key)) continue;
-      const panel = new FieldPanel(
-        model.slot,
-        model.key === first,
-        () => this.#last?.experiment ?? experiment,
-        this.#actions,
-        () => this.#actions.redraw(),
-      );
+      const panel = new FieldPanel({
+        slot: model.slot,
+        first: model.key === first,
+        frame: () => (this.#last?.experiment ?? experiment).frame,
+        actions: this.#actions,
+        resized: () => this.#actions.redraw(),
+      });
       this.#panels.set(model.key, panel);
     }
     fits.forEach(({ model }, i) => {
@@ -148,6 +149,15 @@ export class PlaneView implements View {
       if (element && this.#fields.children[i] !== element) this.#fields.insertBefore(element, this.#fields.children[i] ?? null);
     });
     this.#fields.dataset.count = String(fits.length);
+  }
+
+  /** Points over a surface of what is drawn last. */
+  #relief(surfaces: Surfaces, experiment: Experiment): Relief {
+    const present = () => this.#last?.experiment ?? experiment;
+    return {
+      screen: (i) => surfaces.screen(present(), i),
+      value: (i, down) => surfaces.value(present(), i, down),
+    };
   }
 
   #drawSection(fits: readonly Fit[], line: Line | undefined, experiment: Experiment): void {
@@ -186,17 +196,23 @@ export class PlaneView implements View {
     if (this.#surfaces === undefined) {
       this.#surfaces = 'coming';
       this.#say('The surfaces are coming …');
-      import('./surfaces.ts')
+      surfacesPart(this.#actions.address)
         .then(({ Surfaces }) => {
-          this.#surfaces = new Surfaces(() => this.#actions.redraw());
+          this.#surfaces = new Surfaces(
+            () => this.#actions.redraw(),
+            (words) => this.#say(words),
+          );
           this.#fields.after(this.#surfaces.controls);
           this.#say('');
+          this.#actions.redraw();
         })
-        .catch(() => {
-          this.#surfaces = 'failed';
-          this.#say('Surfaces need WebGL 2, which this browser does not give. The maps stay.');
-        })
-        .finally(() => this.#actions.redraw());
+        .catch((error) => {
+          // The maps stay, and the box says so.
+          this.#surfaces = undefined;
+          this.#actions.setShow({ surface: false });
+          if (error instanceof NotFetched) this.#trouble.tell(error, () => this.#actions.setShow({ surface: true }));
+          else this.#say('Surfaces need WebGL 2, which this browser does not give. The maps stay.');
+        });
     }
     return typeof this.#surfaces === 'object' ? this.#surfaces : undefined;
   }

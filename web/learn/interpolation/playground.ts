@@ -1,4 +1,5 @@
 import type { HandlebodyRuntime, OutlierReport } from '../../../wasm/ts/runtime.ts';
+import { computable } from '../../ui/address.ts';
 import { readable } from '../../ui/dom.ts';
 import { fromAddress, toAddress } from './address.ts';
 import {
@@ -17,10 +18,9 @@ import {
   tidy,
 } from './experiment.ts';
 import { Fit } from './fit.ts';
-import type { PointActions } from './handles.ts';
 import { dataOf, kindOf, modelOf } from './interpolants.ts';
 import { outlierText, searchOutliers, summary } from './report.ts';
-import type { View } from './view.ts';
+import type { PlaneActions, View } from './view.ts';
 
 /** The parts of the page that show the experiment. */
 interface Audience {
@@ -38,7 +38,7 @@ interface Audience {
 const REST = 350;
 
 /** The experiment and its fits: every change goes through here, and is solved and drawn with the next frame. */
-export class Playground implements PointActions {
+export class Playground implements PlaneActions {
   readonly hb: HandlebodyRuntime;
   experiment: Experiment;
   fits: Fit[] = [];
@@ -56,12 +56,7 @@ export class Playground implements PointActions {
   constructor(hb: HandlebodyRuntime, audience: Audience) {
     this.hb = hb;
     this.#audience = audience;
-    this.experiment = fromAddress(location.hash);
-  }
-
-  /** Shows what an address says. */
-  open(hash: string): void {
-    this.start(fromAddress(hash));
+    this.experiment = fromAddress('');
   }
 
   start(experiment: Experiment): void {
@@ -127,8 +122,9 @@ export class Playground implements PointActions {
     this.#change('all');
   }
 
-  /** A number that somebody typed: taken as it is, and the frame makes room for it. */
-  type(i: number, column: number, number: number): void {
+  /** A number that somebody typed: taken as it is, as far as it can be computed with, and the frame makes room for it. */
+  type(i: number, column: number, typed: number): void {
+    const number = computable(typed);
     const { dimension, points, values, frame, range } = this.experiment;
     if (column === dimension) values[i] = number;
     else points[i * dimension + column] = number;
@@ -284,7 +280,7 @@ export class Playground implements PointActions {
     this.experiment.picked = i;
     this.#change('all');
     // The handle is there after the next frame.
-    requestAnimationFrame(() => this.view?.focusPoint(i));
+    requestAnimationFrame(() => this.view?.handle(i)?.focus());
   }
 
   /** What the first good interpolant says there. */

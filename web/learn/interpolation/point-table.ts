@@ -1,4 +1,5 @@
 import { h } from '../../ui/dom.ts';
+import { focusNeighbor } from '../../ui/focus.ts';
 import { type Experiment, MOST_POINTS, placeOf } from './experiment.ts';
 
 interface TableActions {
@@ -90,11 +91,12 @@ export class PointTable {
       });
       return h('td', {}, input);
     });
-    const remove = h(
-      'button',
-      { type: 'button', class: 'tool-button', 'aria-label': `Remove point ${i}`, onclick: () => this.#actions.remove(i) },
-      '×',
-    );
+    const act = () => {
+      this.#actions.remove(i);
+      if (this.#last) this.update(this.#last);
+      focusNeighbor(this.#body.querySelectorAll('button'), i, this.#add);
+    };
+    const remove = h('button', { type: 'button', class: 'tool-button', 'aria-label': `Remove point ${i}`, onclick: act }, '×');
     return h('tr', {}, h('th', { scope: 'row' }, String(i)), ...cells, h('td', {}, remove));
   }
 }

@@ -1,6 +1,6 @@
+import { colorRange } from '../../figures/kit/scale.ts';
 import { type Experiment, type Frame, PLAIN, type Settings, type Show } from './experiment.ts';
 import { kindOf, modelOf } from './interpolants.ts';
-import { colorRange } from './scale.ts';
 
 type Recipe = readonly [kind: string, settings?: Settings];
 

@@ -5,10 +5,10 @@ import {
   type KernelName,
   type RbfOptions,
 } from '../../../wasm/ts/runtime.ts';
+import { brief } from '../../figures/kit/words.ts';
 import type { Settings } from './experiment.ts';
 import type { Data, Kind } from './kind.ts';
 import type { Parameter } from './parameter.ts';
-import { brief } from './words.ts';
 
 /** A kernel of one's own: it changes its sign and is positive definite on a line nevertheless. */
 const sinc: KernelFunction = (s) => (s === 0 ? 1 : Math.sin(Math.PI * s) / (Math.PI * s));

@@ -1,9 +1,9 @@
 import type { HandlebodyRuntime, OutlierReport } from '../../../wasm/ts/runtime.ts';
+import { brief, conditionText, health } from '../../figures/kit/words.ts';
 import type { Experiment } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { dataOf } from './interpolants.ts';
 import { rbfOptions } from './rbf-kind.ts';
-import { brief, conditionText, health } from './words.ts';
 
 /** What the page says aloud when something has come to rest. */
 export function summary(experiment: Experiment, fits: readonly Fit[], found: string): string {

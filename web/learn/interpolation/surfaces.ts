@@ -19,10 +19,10 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
+import type { ColorMap } from '../../figures/kit/color-map.ts';
 import { h } from '../../ui/dom.ts';
-import type { ColorMap } from './color-map.ts';
+import { onInterruption } from '../../ui/screen.ts';
 import { type Experiment, MOST_POINTS } from './experiment.ts';
-import type { Relief } from './view.ts';
 
 /** Height of the color range, where the picture is one wide. */
 const HEIGHT = 0.55;
@@ -31,7 +31,7 @@ const REACH = 0.8;
 const FAR = 20;
 
 /** Fields as surfaces over the plane: one renderer draws them all, one after another, and copies each into its own canvas. */
-export class Surfaces implements Relief {
+export class Surfaces {
   /** Sliders that turn and tilt all surfaces alike. */
   readonly controls: HTMLElement;
   readonly #renderer = new WebGLRenderer({ antialias: true, alpha: true });
@@ -55,13 +55,14 @@ export class Surfaces implements Relief {
   #tilt = 35;
   #size = 0;
 
-  constructor(redraw: () => void) {
+  /** `say` gets a sentence while the graphics card is interrupted, and none when it is back. */
+  constructor(redraw: () => void, say: (words: string) => void) {
     const light = new DirectionalLight(0xffffff, 2.2);
     light.position.set(-0.5, 1.5, 0.8);
     this.#renderer.localClippingEnabled = true;
     this.#scene.add(new AmbientLight(0xffffff, 1.4), light, this.#mesh, this.#balls, floor());
     this.#balls.frustumCulled = this.#mesh.frustumCulled = false;
-    this.#renderer.domElement.addEventListener('webglcontextrestored', redraw);
+    onInterruption(this.#renderer.domElement, say, redraw);
     const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
       const input = h('input', { type: 'range', min: low, max: high, step: 1, value, oninput: () => change(input.valueAsNumber) });
       return h('label', {}, h('span', {}, label), input);
@@ -88,6 +89,8 @@ export class Surfaces implements Relief {
     experiment: Experiment,
     cardinal: boolean,
   ): void {
+    // The last picture stays.
+    if (this.#renderer.getContext().isContextLost()) return;
     this.#lay(size);
     const positions = this.#geometry.getAttribute('position') as BufferAttribute;
     const shades = this.#geometry.getAttribute('color') as BufferAttribute;

@@ -1,6 +1,6 @@
-import type { Experiment } from './experiment.ts';
+import type { FieldActions } from '../../figures/kit/field-panel.ts';
+import type { Experiment, Show } from './experiment.ts';
 import type { Fit } from './fit.ts';
-import type { PointActions } from './handles.ts';
 
 /** All that a view draws. */
 export interface Picture {
@@ -21,19 +21,14 @@ export interface View {
   refine(): void;
   /** Lets all interpolants fade but one; none for 0. */
   emphasize(key: number): void;
-  focusPoint(i: number): void;
-  dispose(): void;
-}
-
-/** How points lie over a surface: parts of the picture from its upper left corner. */
-export interface Relief {
-  screen(experiment: Experiment, i: number): readonly [number, number];
-  /** The value at which point `i` would be seen at this height. */
-  value(experiment: Experiment, i: number, down: number): number;
+  /** What point `i` is taken hold of by: nothing where it is not drawn. */
+  handle(i: number): HTMLElement | undefined;
 }
 
 /** What the plane asks for besides moving points. */
-export interface PlaneActions extends PointActions {
-  setValue(i: number, value: number): void;
+export interface PlaneActions extends FieldActions {
+  /** Of the experiment as it is. */
+  readonly address: string;
+  setShow(show: Partial<Show>): void;
   redraw(): void;
 }

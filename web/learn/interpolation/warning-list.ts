@@ -1,8 +1,9 @@
 import type { RbfWarning } from '../../../wasm/ts/runtime.ts';
+import { brief } from '../../figures/kit/words.ts';
 import { h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
+import { focusNeighbor } from '../../ui/focus.ts';
 import type { Settings } from './experiment.ts';
-import { brief } from './words.ts';
 
 interface Remedy {
   readonly words: string;
@@ -24,12 +25,14 @@ export class WarningList {
   readonly element = h('div', { class: 'warnings' });
   readonly #known: ReadonlySet<string>;
   readonly #apply: (settings: Settings) => void;
+  readonly #below: HTMLElement;
   readonly #items = new Map<string, { element: HTMLElement; update(message: string, remedy: string, remedies: Remedy[]): void }>();
 
-  /** `known`: the settings that the interpolant has; remedies that need others get no button. */
-  constructor(known: ReadonlySet<string>, apply: (settings: Settings) => void) {
+  /** `known`: the settings that the interpolant has; remedies that need others get no button. `below` gets the focus after the last one. */
+  constructor(known: ReadonlySet<string>, apply: (settings: Settings) => void, below: HTMLElement) {
     this.#known = known;
     this.#apply = apply;
+    this.#below = below;
   }
 
   /** `kept`: whether there is a last good picture. */
@@ -56,8 +59,10 @@ export class WarningList {
     }
     for (const [code, { element }] of this.#items) {
       if (told.has(code)) continue;
+      const focused = element.contains(document.activeElement);
       element.remove();
       this.#items.delete(code);
+      if (focused) focusNeighbor(this.element.querySelectorAll('button'), 0, this.#below);
     }
   }
 

@@ -1,8 +1,13 @@
 import type { DualQuaternion, HandlebodyRuntime, LinearBlend } from '../../../wasm/ts/runtime.ts';
 import type { View } from '../../stage/view.ts';
+import { leftOut, writeAddress } from '../../ui/address.ts';
+import { copyLink } from '../../ui/copy-link.ts';
 import { byId, h } from '../../ui/dom.ts';
+import { NotFetched } from '../../ui/lazy.ts';
 import { isAbort, type Messages } from '../../ui/messages.ts';
+import { PageError } from '../../ui/page-error.ts';
 import type { Progress } from '../../ui/progress.ts';
+import { fromAddress, type State, toAddress } from './address.ts';
 import type { Weights } from './messages.ts';
 import { type Blend, Panel } from './panel.ts';
 import { atRest, type Pose, writeTransform } from './pose.ts';
@@ -17,7 +22,7 @@ interface Parts {
   readonly progress: Progress;
 }
 
-/** One solid at a time: its weights, its pose, its picture. */
+/** One solid at a time: its weights, its pose, its picture. What is shown stays until what was asked for is there. */
 export class Lesson {
   readonly #parts: Parts;
   #abort = new AbortController();
@@ -30,7 +35,8 @@ export class Lesson {
   #poses: Pose[] = [];
   #chosen = 0;
   #colored = true;
-  #method: Method = 'biharmonic';
+  /** Of the weights that are shown, if there are any. */
+  #method: Method | undefined;
   #blend: Blend = 'linear';
   #weights: Weights | undefined;
   #skins: Record<Blend, LinearBlend | DualQuaternion> | undefined;
@@ -38,99 +44,136 @@ export class Lesson {
 
   constructor(parts: Parts) {
     this.#parts = parts;
-    const first = SOLIDS.find(({ id }) => location.hash === `#${id}`)?.id ?? 'bar';
     byId('solids').append(
       ...SOLIDS.map(({ id, label }) => {
-        const input = h('input', { type: 'radio', name: 'solid', value: id, onchange: () => void this.open(id) });
-        input.checked = id === first;
+        const input = h('input', {
+          type: 'radio',
+          name: 'solid',
+          value: id,
+          onchange: () => void this.#open({ ...this.#state, solid: id }),
+        });
         return h('label', {}, input, h('span', {}, label));
       }),
     );
-    void this.open(first);
+    copyLink(byId('copy'), byId('live'), () => this.#write());
+    addEventListener('hashchange', () => this.#follow());
+    this.#follow();
   }
 
-  async open(id: Solid['id']): Promise<void> {
-    await this.#attempt('Getting the solid…', async (signal) => {
-      const solid = await SOLIDS.find((entry) => entry.id === id)?.make(signal);
-      if (!solid || signal.aborted) return;
-      history.replaceState(null, '', `#${id}`);
-      this.#solid = solid;
-      this.#diagonal = diagonalOf(solid.positions);
-      this.#volume = volumeOf(solid.positions, solid.triangles);
-      this.#weights = undefined;
-      this.#poses = solid.handles.map(atRest);
-      this.#chosen = solid.chosen;
-      this.#mesh = new SkinMesh(solid.positions, solid.triangles);
-      this.#mesh.showWeight(new Float32Array(), 0, -1);
-      this.#parts.view.show(this.#mesh);
-      this.#parts.view.frame(this.#mesh, solid.view, true);
-      this.#panel = new Panel(solid, {
-        setMethod: (method) => {
-          this.#method = method;
-          this.#panel?.show(method, this.#blend);
-          void this.#attempt('Computing weights…', (inner) => this.#compute(inner));
-        },
-        setBlend: (blend) => {
-          this.#blend = blend;
-          this.#deform();
-        },
-        choose: (handle) => {
-          this.#chosen = handle;
-          this.#panel?.posed(handle, this.#poses[handle] ?? atRest());
-          this.#color();
-        },
-        showWeight: (shown) => {
-          this.#colored = shown;
-          this.#color();
-        },
-        pose: (handle, pose) => {
-          this.#poses[handle] = pose;
-          this.#deform();
-        },
-        reset: () => this.#setPoses(solid.handles.map(atRest)),
-        preset: () => this.#setPoses(presetOf(solid)),
-      });
-      byId('panel').replaceChildren(this.#panel.element);
-      this.#panel.show(this.#method, this.#blend);
-      this.#panel.posed(this.#chosen, atRest());
-      await this.#compute(signal);
-    });
+  /** What is shown; what the page begins with where that is nothing. */
+  get #state(): State {
+    const first = fromAddress('');
+    return { solid: this.#solid?.id ?? first.solid, method: this.#method ?? first.method, blend: this.#blend };
   }
 
-  /** Runs long work with a bar, a way to stop it, and a sentence where it fails; what is shown stays. */
-  async #attempt(label: string, work: (signal: AbortSignal) => Promise<void>): Promise<void> {
+  /** Shows what the address says, as far as it can be read. */
+  #follow(): void {
+    const left: string[] = [];
+    void this.#open(fromAddress(location.hash, left), leftOut(left));
+  }
+
+  /** Runs long work with a bar and a way to stop it. Where it fails or is stopped, what is chosen is again what is shown. */
+  async #open(next: State, said?: PageError): Promise<void> {
     this.#abort.abort(new DOMException('Something else was asked for.', 'AbortError'));
     const own = new AbortController();
     this.#abort = own;
     const { progress, messages } = this.#parts;
     byId('solid').dataset.state = 'busy';
     messages.clear();
-    progress.begin(label, () => own.abort(new DOMException('Cancelled.', 'AbortError')));
+    this.#blend = next.blend;
+    this.#deform();
+    this.#mark(next.solid, next.method);
+    progress.begin('Getting the solid…', () => own.abort(new DOMException('Cancelled.', 'AbortError')));
     try {
-      await work(own.signal);
+      if (next.solid !== this.#solid?.id || next.method !== this.#method) await this.#bring(next, own.signal);
+      if (said) messages.show(said);
     } catch (error) {
-      if (!isAbort(error)) messages.show(error);
+      if (this.#abort === own && !isAbort(error))
+        messages.show(error, error instanceof NotFetched ? () => void this.#open(next) : undefined);
     }
+    // What was asked for meanwhile tells its own end.
     if (this.#abort !== own) return;
     progress.end();
     byId('solid').dataset.state = this.#weights ? 'ready' : 'failed';
+    this.#mark(this.#solid?.id, this.#method);
+    if (this.#solid) this.#write();
   }
 
-  async #compute(signal: AbortSignal): Promise<void> {
-    const solid = this.#solid as Solid;
-    this.#parts.progress.set(undefined, 'Computing weights…');
-    const [hb, weights] = await Promise.all([
-      this.#parts.solver,
-      computeWeights(solid, this.#method, signal, (part) => this.#parts.progress.set(part)),
-    ]);
-    if (signal.aborted) return;
+  #write(): void {
+    writeAddress(toAddress(this.#state));
+  }
+
+  #mark(solid: Solid['id'] | undefined, method: Method | undefined): void {
+    for (const input of byId('solids').querySelectorAll('input')) input.checked = input.value === solid;
+    this.#panel?.show(method, this.#blend);
+  }
+
+  /** Weights by a method, of another solid too. */
+  async #bring(next: State, signal: AbortSignal): Promise<void> {
+    const { progress, messages, solver } = this.#parts;
+    const solid = this.#solid?.id === next.solid ? this.#solid : await SOLIDS.find(({ id }) => id === next.solid)?.make(signal);
+    signal.throwIfAborted();
+    if (!solid) return;
+    // The first picture does not wait for weights.
+    if (!this.#solid) this.#stage(solid, next.method);
+    progress.set(undefined, 'Computing weights…');
+    const listener = {
+      signal,
+      onProgress: (part: number) => progress.set(part),
+      onFallback: () => messages.show(withoutWorker()),
+    };
+    const [hb, weights] = await Promise.all([solver, computeWeights(solid, next.method, listener, toAddress(next))]);
+    signal.throwIfAborted();
+    if (solid !== this.#solid) this.#stage(solid, next.method);
     this.#skins?.linear.dispose();
     this.#skins?.rigid.dispose();
     const options = { positions: solid.positions, weights: weights.weights };
     this.#skins = { linear: hb.linearBlend(options), rigid: hb.dualQuaternion(options) };
-    this.#weights = weights;
+    [this.#weights, this.#method] = [weights, next.method];
     this.#color();
     this.#deform();
+  }
+
+  /** Another solid comes on the stage, at rest, with a panel of its own. */
+  #stage(solid: Solid, method: Method): void {
+    this.#solid = solid;
+    this.#diagonal = diagonalOf(solid.positions);
+    this.#volume = volumeOf(solid.positions, solid.triangles);
+    [this.#weights, this.#method] = [undefined, undefined];
+    this.#poses = solid.handles.map(atRest);
+    [this.#chosen, this.#colored] = [solid.chosen, true];
+    this.#mesh = new SkinMesh(solid.positions, solid.triangles);
+    this.#mesh.showWeight(new Float32Array(), 0, -1);
+    this.#parts.view.show(this.#mesh);
+    this.#parts.view.frame(this.#mesh, solid.view, true);
+    this.#panel = new Panel(solid, {
+      setMethod: (id) => void this.#open({ ...this.#state, method: id }),
+      setBlend: (id) => {
+        this.#blend = id;
+        this.#write();
+        this.#deform();
+      },
+      choose: (handle) => {
+        this.#chosen = handle;
+        this.#panel?.posed(handle, this.#poses[handle] ?? atRest());
+        this.#color();
+      },
+      showWeight: (shown) => {
+        this.#colored = shown;
+        this.#color();
+      },
+      pose: (handle, pose) => {
+        this.#poses[handle] = pose;
+        this.#deform();
+      },
+      reset: () => this.#setPoses(solid.handles.map(atRest)),
+      preset: () => this.#setPoses(presetOf(solid)),
+    });
+    const focused = byId('panel').contains(document.activeElement);
+    byId('panel').replaceChildren(this.#panel.element);
+    if (focused) byId('solids').querySelector<HTMLElement>(`input[value=${solid.id}]`)?.focus();
+    this.#panel.show(method, this.#blend);
+    this.#panel.posed(this.#chosen, atRest());
   }
 
   #setPoses(poses: Pose[]): void {
@@ -164,6 +207,14 @@ export class Lesson {
       this.#panel?.measured(this.#weights, volumeOf(mesh.positions, solid.triangles) / this.#volume);
     });
   }
+}
+
+function withoutWorker(): PageError {
+  return new PageError(
+    'worker-unavailable',
+    'No second thread could be started here: while weights are computed, the page does not answer.',
+    'Open the page in a window of its own if it takes too long.',
+  );
 }
 
 /** A twist that linear blending does not survive; a paw lifted forward. */

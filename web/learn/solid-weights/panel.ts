@@ -1,11 +1,16 @@
+import { ColorMap } from '../../figures/kit/color-map.ts';
 import { h, readable } from '../../ui/dom.ts';
-import { ColorMap } from '../interpolation/color-map.ts';
 import type { Weights } from './messages.ts';
 import { atRest, type Pose } from './pose.ts';
 import type { Solid } from './solids.ts';
 import { METHODS, type Method } from './weights.ts';
 
-export type Blend = 'linear' | 'rigid';
+export const BLENDS = [
+  { id: 'linear', label: 'Linear' },
+  { id: 'rigid', label: 'Rigid (dual quaternions)' },
+] as const;
+
+export type Blend = (typeof BLENDS)[number]['id'];
 
 interface PanelActions {
   setMethod(method: Method): void;
@@ -99,10 +104,7 @@ export class Panel {
       radios(
         'blend',
         'Blending',
-        [
-          ['linear', 'Linear'],
-          ['rigid', 'Rigid (dual quaternions)'],
-        ],
+        BLENDS.map(({ id, label }) => [id, label] as const),
         (id) => actions.setBlend(id as Blend),
       ),
       radios(
@@ -137,8 +139,9 @@ export class Panel {
   /** Shows the pose of the handle that is chosen. */
   readonly posed: (handle: number, pose: Pose) => void;
 
-  show(method: Method, blend: Blend): void {
-    this.#check('method', method);
+  /** No method is chosen where there are no weights. */
+  show(method: Method | undefined, blend: Blend): void {
+    for (const { id } of METHODS) (this.#inputs.get(`method ${id}`) as HTMLInputElement).checked = id === method;
     this.#about.textContent = METHODS.find(({ id }) => id === method)?.about ?? '';
     this.#check('blend', blend);
   }

@@ -9,7 +9,7 @@ import {
   RGBAFormat,
   SRGBColorSpace,
 } from 'three';
-import { ColorMap } from '../interpolation/color-map.ts';
+import { ColorMap } from '../../figures/kit/color-map.ts';
 
 /** No weight: the shader leaves such vertices plain. */
 const PLAIN = -1e9;

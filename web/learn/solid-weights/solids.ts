@@ -1,6 +1,7 @@
-import { BoxGeometry, type Mesh as ThreeMesh } from 'three';
+import { BoxGeometry } from 'three';
 import type { WeightHandle } from '../../../wasm/ts/index.ts';
 import type { Vec3 } from '../../../wasm/ts/types.ts';
+import { lazy, notFetched } from '../../ui/lazy.ts';
 
 interface SolidHandle {
   readonly name: string;
@@ -59,24 +60,20 @@ const DOG: readonly (readonly [name: string, vertex: number])[] = [
   ['Tail tip', 3169],
 ];
 
+const reader = lazy(() => import('./read-model.ts'), 'The part of this page that reads models');
+
 async function fetchDog(signal: AbortSignal): Promise<Solid> {
-  const [{ GLTFLoader }, { meshFromObject }, { handlebodyPlugin }] = await Promise.all([
-    import('three/examples/jsm/loaders/GLTFLoader.js'),
-    import('../../three/geometry.ts'),
-    import('../../three/loader.ts'),
-  ]);
-  const response = await fetch(new URL('../../models/dog.glb', document.baseURI), { signal });
-  if (!response.ok) throw new Error(`The dog could not be fetched: the server answered ${response.status}.`);
-  const gltf = await new GLTFLoader().register(handlebodyPlugin).parseAsync(await response.arrayBuffer(), '');
-  const { mesh } = meshFromObject(gltf.scene);
-  gltf.scene.traverse((part) => (part as Partial<ThreeMesh>).geometry?.dispose());
-  const positions = Float32Array.from(mesh.positions);
+  const { readModel } = await reader('dog');
+  const response = await fetch(new URL('../../models/dog.glb', document.baseURI), { signal }).catch(() => undefined);
+  signal.throwIfAborted();
+  if (!response?.ok) throw await notFetched('The dog');
+  const { positions, triangles } = await readModel(await response.arrayBuffer());
   const place = (v: number): Vec3 => [positions[3 * v] as number, positions[3 * v + 1] as number, positions[3 * v + 2] as number];
   return {
     id: 'dog',
     label: 'Dog',
     positions,
-    triangles: Uint32Array.from(mesh.triangles),
+    triangles,
     handles: DOG.map(([name, vertex]) => ({ name, holds: { at: place(vertex) }, center: place(vertex) })),
     resolution: 56,
     view: { azimuth: 58, elevation: 14 },

@@ -1,4 +1,5 @@
-import type { Frame } from './experiment.ts';
+/** Left, right, bottom, top: what part of the data's world is in a picture. */
+export type Frame = readonly [number, number, number, number];
 
 /** Samples across a frame, besides the points. */
 const EVEN = 400;

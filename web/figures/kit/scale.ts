@@ -10,8 +10,10 @@ export function axisMarks(low: number, high: number, wanted: number): { at: numb
 /** The values that colors cover: those of the points and a quarter more on each side, so that overshoot shows before it saturates. */
 export function colorRange(values: readonly number[]): readonly [number, number] {
   const [low, high] = [Math.min(...values), Math.max(...values)];
-  const pad = high > low ? (high - low) / 4 : 1;
-  return [Number((low - pad).toPrecision(6)), Number((high + pad).toPrecision(6))];
+  const pad = high > low ? (high - low) / 4 : Math.max(1, Math.abs(high) / 1e4);
+  const round = [low - pad, high + pad].map((end) => Number(end.toPrecision(6))) as [number, number];
+  // What is close together at a large number needs all its digits.
+  return round[0] < low && round[1] > high ? round : [low - pad, high + pad];
 }
 
 /** A slider's position, 0 to 1, for a number: even in the logarithm; with `zero`, the left end is 0. */

@@ -3,19 +3,23 @@ import type { ColorMap } from './color-map.ts';
 import { axisMarks } from './scale.ts';
 import { brief } from './words.ts';
 
+let nextId = 1;
+
 /** The legend of all fields, with a slider on it: the chosen point's value among the colors. */
 export class ColorScale {
   readonly element: HTMLElement;
   readonly #input: HTMLInputElement;
-  readonly #title = h('label', { for: 'value-of-point' }, 'Value');
+  readonly #title: HTMLLabelElement;
   readonly #strip = h('div', { class: 'scale-strip', 'aria-hidden': 'true' });
   readonly #marks = h('div', { class: 'scale-marks', 'aria-hidden': 'true' });
   #drawn = '';
 
   constructor(change: (value: number) => void) {
+    const id = `scale-${nextId++}`;
+    this.#title = h('label', { for: id }, 'Value');
     this.#input = h('input', {
       type: 'range',
-      id: 'value-of-point',
+      id,
       step: 'any',
       oninput: () => change(this.#input.valueAsNumber),
     });

@@ -1,6 +1,4 @@
-import type { Experiment, Frame } from './experiment.ts';
-import type { Fit } from './fit.ts';
-import { asLong } from './samples.ts';
+import { asLong, type Frame } from './samples.ts';
 
 /** The samples of a field: size × size, row by row from above, each in the middle of its cell. */
 export class FieldGrid {
@@ -25,25 +23,30 @@ export class FieldGrid {
 /** Queries whose weights are asked for at a time: each has as many as there are points, of which one is kept. */
 const BATCH = 2048;
 
-/** A fit's values at queries, or the chosen point's weight there. */
+/** A function over the plane; an interpolant has the weights of its points too. */
+export interface FieldSource {
+  evaluate(queries: Float64Array, out: Float64Array): unknown;
+  weights?(queries: Float64Array, out: Float64Array): unknown;
+}
+
+/** Values at queries, or the weight of one of `points` there. */
 export class FieldValues {
   values: Float64Array = new Float64Array();
   #all: Float64Array = new Float64Array();
 
-  sample(fit: Fit, queries: Float64Array, cardinalOf: number, { values }: Experiment): Float64Array {
+  sample(source: FieldSource | undefined, queries: Float64Array, point = -1, points = 0): Float64Array {
     const count = queries.length / 2;
     this.values = asLong(this.values, count);
-    if (cardinalOf < 0 || fit.problem !== undefined) {
-      fit.interpolant?.evaluate(queries, this.values);
+    if (point < 0) {
+      source?.evaluate(queries, this.values);
       return this.values;
     }
-    const n = values.length;
-    this.#all = asLong(this.#all, BATCH * n);
+    this.#all = asLong(this.#all, BATCH * points);
     for (let first = 0; first < count; first += BATCH) {
       const batch = Math.min(BATCH, count - first);
-      const all = this.#all.subarray(0, batch * n);
-      fit.interpolant?.weights(queries.subarray(2 * first, 2 * (first + batch)), all);
-      for (let i = 0; i < batch; i++) this.values[first + i] = all[i * n + cardinalOf] as number;
+      const all = this.#all.subarray(0, batch * points);
+      source?.weights?.(queries.subarray(2 * first, 2 * (first + batch)), all);
+      for (let i = 0; i < batch; i++) this.values[first + i] = all[i * points + point] as number;
     }
     return this.values;
   }

@@ -1,15 +1,38 @@
 import { h } from '../../ui/dom.ts';
+import { onScreenChange } from '../../ui/screen.ts';
+import type { Label } from './chart.ts';
 import type { ColorMap } from './color-map.ts';
-import type { Experiment } from './experiment.ts';
 import { FieldValues } from './field.ts';
-import { type Board, Handles } from './handles.ts';
+import { type Board, Handles, type PointActions } from './handles.ts';
 import { drawIsolines, levels } from './isolines.ts';
-import type { Label } from './kind.ts';
-import type { Line } from './section.ts';
+import type { Frame } from './samples.ts';
 import { swatch } from './swatch.ts';
-import type { PlaneActions, Relief } from './view.ts';
 
-/** One interpolant in the plane: a picture, its name, and the points over it. */
+/** How points lie over a surface: parts of the picture from its upper left corner. */
+export interface Relief {
+  screen(i: number): readonly [across: number, down: number];
+  /** The value at which point `i` would be seen at this height. */
+  value(i: number, down: number): number;
+}
+
+/** What the plane asks for besides moving points. */
+export interface FieldActions extends PointActions {
+  setValue(i: number, value: number): void;
+}
+
+/** Where a section begins and ends, as parts of the picture from its upper left corner: x, y, x, y. */
+export type Ends = readonly [number, number, number, number];
+
+interface FieldPanelOptions {
+  readonly slot: number;
+  /** Its handles are those that the keyboard reaches. */
+  readonly first: boolean;
+  readonly frame: () => Frame;
+  readonly actions: FieldActions;
+  readonly resized: () => void;
+}
+
+/** A function in the plane: a picture, its name, and the points over it. */
 export class FieldPanel {
   readonly element: HTMLElement;
   readonly canvas = h('canvas');
@@ -21,36 +44,40 @@ export class FieldPanel {
   readonly #small = h('canvas');
   /** Where points lie over a surface; nothing over a map. */
   relief: Relief | undefined;
+  readonly #left = new AbortController();
   #pixels: ImageData | undefined;
   #words: Uint32Array | undefined;
   /** Device pixels of a side. */
   #side = 0;
   #width = 0;
 
-  /** `first`: its handles are those that the keyboard reaches. */
-  constructor(slot: number, first: boolean, experiment: () => Experiment, actions: PlaneActions, resized: () => void) {
+  constructor({ slot, first, frame, actions, resized }: FieldPanelOptions) {
+    const width = () => this.#width;
     const board: Board = {
+      get size() {
+        return [width(), width()] as const;
+      },
       screen: (i) => {
-        const [left, right, bottom, top] = experiment().frame;
+        const [left, right, bottom, top] = frame();
         const [x, y] = actions.placeOf(i);
         if (this.relief) {
-          const [across, down] = this.relief.screen(experiment(), i);
+          const [across, down] = this.relief.screen(i);
           return [across * this.#width, down * this.#width];
         }
         return [((x - left) / (right - left)) * this.#width, ((top - y) / (top - bottom)) * this.#width];
       },
       place: (px, py) => {
         if (this.relief) return undefined;
-        const [left, right, bottom, top] = experiment().frame;
+        const [left, right, bottom, top] = frame();
         return [left + (px / this.#width) * (right - left), top - (py / this.#width) * (top - bottom)];
       },
       drag: (i, px, py) => {
-        if (this.relief) return actions.setValue(i, this.relief.value(experiment(), i, py / this.#width));
+        if (this.relief) return actions.setValue(i, this.relief.value(i, py / this.#width));
         const place = board.place(px, py);
         if (place) actions.move(i, ...place);
       },
       get spans() {
-        const [left, right, bottom, top] = experiment().frame;
+        const [left, right, bottom, top] = frame();
         return [right - left, top - bottom] as const;
       },
     };
@@ -62,16 +89,16 @@ export class FieldPanel {
       this.area,
       h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
     );
-    new ResizeObserver(() => this.measure() && resized()).observe(this.area);
+    onScreenChange(this.area, () => this.measure() && resized(), this.#left.signal);
   }
 
-  /** Takes the size that the page gives; whether it is another one. */
+  /** Takes the size that the page gives, and the pixels that the screen has for it; whether they are others. */
   measure(): boolean {
     const width = this.area.clientWidth;
-    if (width === this.#width || width === 0) return false;
-    this.#width = width;
-    this.#side = Math.round(width * devicePixelRatio);
-    this.canvas.width = this.canvas.height = this.#side;
+    const side = Math.round(width * devicePixelRatio);
+    if ((width === this.#width && side === this.#side) || width === 0) return false;
+    [this.#width, this.#side] = [width, side];
+    this.canvas.width = this.canvas.height = side;
     return true;
   }
 
@@ -100,7 +127,7 @@ export class FieldPanel {
   }
 
   /** Colors, lines of equal value, and where the section runs. */
-  paint(size: number, colors: ColorMap, isolines: boolean, section: Line | undefined): void {
+  paint(size: number, colors: ColorMap, isolines: boolean, section: Ends | undefined): void {
     const context = this.context;
     const { values } = this.field;
     if (this.#pixels?.width !== size) {
@@ -124,25 +151,25 @@ export class FieldPanel {
     if (section) this.#rule(context, section);
   }
 
-  points(experiment: Experiment, colors: ColorMap, outliers: readonly number[]): void {
+  points(values: readonly number[], colors: ColorMap, outliers: readonly number[] = []): void {
     this.#handles.draw();
-    for (let i = 0; i < experiment.values.length; i++) {
+    for (let i = 0; i < values.length; i++) {
       const handle = this.#handles.element(i);
-      handle?.style.setProperty('--fill', colors.css(experiment.values[i] as number));
+      handle?.style.setProperty('--fill', colors.css(values[i] as number));
       handle?.toggleAttribute('data-outlier', outliers.includes(i));
     }
   }
 
-  focusPoint(i: number): void {
-    this.#handles.element(i)?.focus();
+  handle(i: number): HTMLElement | undefined {
+    return this.#handles.element(i);
   }
 
   dispose(): void {
-    this.#handles.dispose();
+    this.#left.abort();
     this.element.remove();
   }
 
-  #rule(context: CanvasRenderingContext2D, { ends: [ax, ay, bx, by] }: Line): void {
+  #rule(context: CanvasRenderingContext2D, [ax, ay, bx, by]: Ends): void {
     const side = this.#side;
     for (const [color, width] of [
       ['rgb(0 0 0 / 55%)', 3],

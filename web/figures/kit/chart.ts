@@ -1,8 +1,14 @@
 import { h, readable, svg } from '../../ui/dom.ts';
-import type { Frame } from './experiment.ts';
-import type { Label } from './kind.ts';
+import { onScreenChange } from '../../ui/screen.ts';
 import { curvePath, spreadLabels } from './path.ts';
+import type { Frame } from './samples.ts';
 import { axisMarks } from './scale.ts';
+
+export interface Label {
+  readonly name: string;
+  /** What tells it from others of its name; may be empty. */
+  readonly detail: string;
+}
 
 /** A curve as the chart draws it. */
 export interface Curve {
@@ -61,7 +67,7 @@ export class Chart {
     );
     this.#svg.append(this.#inner);
     this.element = h('div', { class: 'chart' }, this.#svg, this.area);
-    new ResizeObserver(() => this.measure() && onResize()).observe(this.element);
+    onScreenChange(this.element, () => this.measure() && onResize());
   }
 
   /** Takes the size that the page gives; whether it is another one. */
@@ -169,7 +175,10 @@ export class Chart {
     this.#inner.setAttribute('transform', `translate(${left} ${top})`);
     this.#clip.setAttribute('width', String(this.width));
     this.#clip.setAttribute('height', String(this.height));
-    this.area.style.inset = `${top}px ${right}px ${bottom}px ${left}px`;
+    // On paper all of it is scaled as it is, by the style sheet: so in parts, not in pixels.
+    this.element.style.setProperty('--shape', `${width} / ${height}`);
+    const part = (pixels: number, of: number) => `${((100 * pixels) / of).toFixed(4)}%`;
+    this.area.style.inset = `${part(top, height)} ${part(right, width)} ${part(bottom, height)} ${part(left, width)}`;
     this.#axes();
   }
 

@@ -1,0 +1,169 @@
+import { readFileSync } from 'node:fs';
+import type { Browser } from 'playwright-core';
+import { PNG } from 'pngjs';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { FIGURES } from '../../web/figures/list.ts';
+import { openFigure, settled, told } from './support/figure.ts';
+import { cramped, violations } from './support/manners.ts';
+import { launch, PHONE, soon } from './support/studio.ts';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+
+const LOOKS = [
+  ['desktop, light', { colorScheme: 'light' as const }],
+  ['desktop, dark', { colorScheme: 'dark' as const }],
+  ['phone, light', { ...PHONE, colorScheme: 'light' as const }],
+  ['phone, dark', { ...PHONE, colorScheme: 'dark' as const }],
+] as const;
+
+describe.each(FIGURES)('$id', ({ id, load }) => {
+  it.each(LOOKS)('%s: silent, axe finds nothing, targets are large enough, nothing overflows', async (_, look) => {
+    const { page, said } = await openFigure(browser, id, look);
+    expect(await violations(page)).toEqual([]);
+    expect(await cramped(page)).toEqual([]);
+    expect(said).toEqual([]);
+  });
+
+  it('every preset opens by its button and by its link, says what to look at, and back goes back', async () => {
+    const { presets } = await load();
+    const { page, said } = await openFigure(browser, id);
+    for (const preset of presets) {
+      await page.getByRole('button', { name: preset.name, exact: true }).click();
+      await settled(page);
+      await soon(() => new URL(page.url()).hash).toBe(`#${id}&v1&${preset.id}`);
+      expect(await page.locator('.caption').textContent()).toContain(preset.look ?? '');
+      expect(await page.locator('.trouble').isVisible()).toBe(false);
+    }
+    if (presets.length > 1) {
+      await page.goBack();
+      await soon(() =>
+        page.getByRole('button', { name: presets.at(-2)?.name ?? '', exact: true }).getAttribute('aria-pressed'),
+      ).toBe('true');
+    }
+    expect(said).toEqual([]);
+  });
+
+  it('a link that is partly wrong opens as far as it is right, and says what was left out', async () => {
+    const { page } = await openFigure(browser, `${id}&v1&nonsense=1&points=x`);
+    expect(await page.locator('.notice').textContent()).toContain('nonsense=1');
+    expect(Object.keys(await told(page)).length).toBeGreaterThan(0);
+    await openFigure(browser, `${id}&v99&power=3`);
+    expect(await page.locator('.notice').textContent()).toMatch(/newer version/);
+  });
+});
+
+it('a picture is saved as SVG and as PNG, as it looks', async () => {
+  const { page } = await openFigure(browser, 'course-12');
+  const saved = async (name: string) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name, exact: true }).click()]);
+    expect(download.suggestedFilename()).toBe(`course-12.${name.toLowerCase()}`);
+    return readFileSync(await download.path());
+  };
+  const drawing = (await saved('SVG')).toString();
+  const curve = await page.locator('.curves path').getAttribute('d');
+  expect(drawing).toContain(curve);
+  expect(drawing.match(/<circle/g)).toHaveLength(14);
+  expect(drawing).not.toMatch(/var\(|class="chart/);
+  const picture = PNG.sync.read(await saved('PNG'));
+  const box = await page.locator('.chart svg').boundingBox();
+  expect(picture.width).toBe(Math.round(2 * (box?.width ?? 0)));
+  const colors = new Set<number>();
+  for (let i = 0; i < picture.data.length; i += 4) colors.add(picture.data.readUInt32BE(i));
+  expect(colors.size).toBeGreaterThan(50);
+});
+
+it('a link to what cannot be made opens the preset, and says so', async () => {
+  // Two values at one place.
+  const { page } = await openFigure(browser, 'course-12&v1&points=1,2;1,3;4,5');
+  expect(await page.locator('.notice').textContent()).toMatch(/so the preset is shown\. Point 1 is at the same place as point 0/);
+  expect(await page.locator('.point[data-kind=points]').count()).toBe(7);
+});
+
+it.each([
+  ['ten thousand points', Array.from({ length: 10_000 }, (_, i) => `${i / 1000},${i % 3}`).join(';')],
+  ['an empty set', ''],
+  ['a value of 1e300', '1,1e300;2,0'],
+])('%s: drawn or told', async (_, points) => {
+  const { page, said } = await openFigure(browser, `course-12&v1&points=${points}`);
+  expect(await page.locator('.notice').textContent()).toMatch(/was left out: “points=/);
+  expect(said).toEqual([]);
+});
+
+it('values of 1e−300 are drawn', async () => {
+  const { page, said } = await openFigure(browser, 'course-12&v1&points=1,1e-300;2,0;3,1e-300');
+  expect(await page.locator('.notice').isVisible()).toBe(false);
+  expect(await page.locator('.curves path').getAttribute('d')).toMatch(/^M0 /);
+  expect(said).toEqual([]);
+});
+
+describe('course-12', () => {
+  it('the sum passes through the points; a kernel’s height is its weight, and the points follow it', async () => {
+    const { page, said } = await openFigure(browser, 'course-12');
+    const before = await told(page);
+    expect(before['sum of kernels misses the points by']).toBeLessThan(1e-3);
+    const kernel = page.locator('.point[data-kind=others]').nth(3);
+    expect(await kernel.getAttribute('aria-label')).toMatch(/^Kernel 3, weight 3\.18$/);
+    await kernel.focus();
+    await page.keyboard.press('PageDown');
+    await settled(page);
+    // Ten steps of a hundredth of the picture's height, 7.
+    expect((await told(page))['weight of kernel 3']).toBeCloseTo(Number(before['weight of kernel 3']) - 0.7, 2);
+    expect((await told(page))['sum of kernels misses the points by']).toBeLessThan(1e-3);
+    await page.keyboard.press('Escape');
+    await settled(page);
+    expect(await told(page)).toEqual(before);
+    await page.locator('input[type=range]').fill('380');
+    await settled(page);
+    expect(Number((await told(page)).condition)).toBeGreaterThan(100 * Number(before.condition));
+    expect(said).toEqual([]);
+  });
+});
+
+describe('course-20', () => {
+  it('the overshoot below zero falls with λ, and the peak is missed by more', async () => {
+    const { page, said } = await openFigure(browser, 'course-20');
+    const facts = Object.entries(await told(page)).map(([name, value]) => [name, Number(value)] as const);
+    const of = (words: string) => facts.filter(([name]) => name.startsWith(words)).map(([, value]) => value);
+    const least = of('least');
+    expect(least).toHaveLength(3);
+    expect(least[0]).toBeLessThan(-0.4);
+    expect(least).toEqual(least.toSorted((a, b) => a - b));
+    expect(of('misses')).toEqual(of('misses').toSorted((a, b) => a - b));
+    expect(of('misses')[0]).toBeLessThan(1e-6);
+    // A larger λ by the first map's own slider tames it too.
+    await page.locator('.control', { hasText: 'λ, first map' }).locator('input').fill('390');
+    await settled(page);
+    const now = Object.entries(await told(page))[0]?.[1];
+    expect(Number(now)).toBeGreaterThan(least[2] ?? 0);
+    expect(new URL(page.url()).hash).toMatch(/^#course-20&v1&from=fig-20&first=/);
+    expect(said).toEqual([]);
+  });
+
+  it('a point is dragged in each map; a scale of its own for each map is drawn otherwise', async () => {
+    const { page } = await openFigure(browser, 'course-20');
+    const point = page.locator('.field').nth(1).locator('.point').nth(4);
+    const box = await point.boundingBox();
+    if (!box) throw new Error('there is no point');
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 20, y - 10, { steps: 4 });
+    await page.mouse.up();
+    await settled(page);
+    const moved = await page.locator('.field').first().locator('.point').nth(4).boundingBox();
+    const first = await page.locator('.field').first().boundingBox();
+    const second = await page.locator('.field').nth(1).boundingBox();
+    expect((moved?.x ?? 0) - (first?.x ?? 0)).toBeCloseTo(box.x + 20 - (second?.x ?? 0), -0.5);
+    expect(new URL(page.url()).hash).toContain('points=-1,-1,0;1,-1,0;');
+    const colors = () => page.locator('.field canvas').nth(2).screenshot();
+    const before = await colors();
+    await page.getByLabel('Colors').selectOption('own');
+    await settled(page);
+    expect(before.equals(await colors())).toBe(false);
+    expect(await page.locator('.color-scale').isVisible()).toBe(false);
+  });
+});

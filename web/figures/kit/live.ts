@@ -1,0 +1,366 @@
+import type { Handlebody } from '../../../wasm/ts/index.ts';
+import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
+import { h } from '../../ui/dom.ts';
+import { explain } from '../../ui/explain.ts';
+import { isAbort } from '../../ui/messages.ts';
+import { type Channels, isParameter, type Parameter, type StateOf } from './channel.ts';
+import { type Control, controlOf } from './controls.ts';
+import type { Figure, Kit, OpenPanel, Told, Work } from './figure.ts';
+import { savePicture } from './save-picture.ts';
+import { fromText, type Preset, stateOfPreset, toText } from './state-text.ts';
+import { brief } from './words.ts';
+
+/** Milliseconds without a change after which a figure is at rest: it tells its state, speaks, and draws finely. */
+const REST = 350;
+/** Milliseconds of work that nobody needs to hear of. */
+const PATIENCE = 400;
+
+/** Both links of the solver, each fetched once a page and only when a figure asks for it. */
+export interface Solvers {
+  runtime(): Promise<HandlebodyRuntime>;
+  whole(): Promise<Handlebody>;
+}
+
+interface LiveOptions {
+  readonly solvers: Solvers;
+  /** The state's line of text. */
+  readonly state?: string;
+  /** The state has changed and come to rest. A step back should lead to before it where it is another preset. */
+  readonly onChange?: (text: string, preset: boolean) => void;
+}
+
+interface Disposable {
+  dispose?(): void;
+}
+
+/** A figure on a page: its state, what was made of it, its pictures and controls. */
+export class Live<C extends Channels, M extends Disposable> {
+  /** Has the figure as its property `figure`. */
+  readonly element = h('section', { class: 'figure' });
+  readonly #figure: Figure<C, M>;
+  readonly #options: LiveOptions;
+  readonly #title = h('h2', { class: 'figure-title' });
+  readonly #trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
+  /** What of a link could not be read, until something is changed. */
+  readonly #notice = h('p', { class: 'notice', role: 'status', hidden: true });
+  readonly #busy = h('div', { class: 'busy', hidden: true });
+  readonly #pictures = h('div', { class: 'panels' });
+  readonly #caption = h('p', { class: 'caption' });
+  readonly #facts = h('dl', { class: 'facts' });
+  readonly #spoken = h('p', { class: 'unseen', role: 'status' });
+  readonly #controls: readonly (readonly [key: string, control: Control])[];
+  readonly #presets = new Map<string, HTMLButtonElement>();
+  #panels: OpenPanel<M, StateOf<C>>[] = [];
+  #hb: HandlebodyRuntime | undefined;
+  #preset: Preset<C>;
+  #state: StateOf<C>;
+  #made: M | undefined;
+  /** The state that `made` and the pictures are of. */
+  #good: { readonly preset: Preset<C>; readonly state: StateOf<C> } | undefined;
+  #work: AbortController | undefined;
+  #unmade = true;
+  #unmoved = false;
+  #frame = 0;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #told: readonly Told[] = [];
+  #text = '';
+  #disposed = false;
+
+  constructor(figure: Figure<C, M>, options: LiveOptions) {
+    this.#figure = figure;
+    this.#options = options;
+    const read = fromText(figure.parameters, figure.presets, options.state ?? '');
+    [this.#preset, this.#state] = [read.preset, read.state];
+    this.#controls = Object.entries(figure.parameters)
+      .filter((entry): entry is [string, Parameter] => isParameter(entry[1]))
+      .map(([key, parameter]) => [
+        key,
+        controlOf(parameter, (value) => this.change({ [key]: value } as unknown as Partial<StateOf<C>>)),
+      ]);
+    Object.assign(this.element, { figure: this });
+    this.element.dataset.figure = figure.id;
+    this.element.dataset.state = 'loading';
+    this.element.dataset.rest = 'no';
+    this.#lay();
+    this.#sayLeft(read);
+    void this.#open();
+  }
+
+  /** The state's line of text. */
+  get state(): string {
+    return toText(this.#figure.parameters, this.#preset, this.#state);
+  }
+
+  set state(text: string) {
+    if (text === this.state) return;
+    const read = fromText(this.#figure.parameters, this.#figure.presets, text);
+    this.#preset = read.preset;
+    this.change(read.state);
+    this.#sayLeft(read);
+  }
+
+  /** The solver's own numbers; none until the figure is ready. */
+  get told(): readonly Told[] {
+    return this.#told;
+  }
+
+  change(patch: Partial<StateOf<C>>): void {
+    tell(this.#notice, '');
+    const { moving = [], shown = [] } = this.#figure;
+    const keys = Object.keys(patch).filter((key) => patch[key] !== this.#state[key]);
+    this.#state = { ...this.#state, ...patch };
+    if (keys.some((key) => !moving.includes(key) && !shown.includes(key))) this.#unmade = true;
+    if (keys.some((key) => moving.includes(key))) this.#unmoved = true;
+    this.#stir();
+  }
+
+  reset(): void {
+    this.change(stateOfPreset(this.#figure.parameters, this.#preset));
+  }
+
+  /** Leaves nothing behind. */
+  dispose(): void {
+    this.#disposed = true;
+    this.#work?.abort();
+    clearTimeout(this.#timer);
+    cancelAnimationFrame(this.#frame);
+    for (const panel of this.#panels) panel.dispose();
+    this.#made?.dispose?.();
+    this.element.remove();
+  }
+
+  #lay(): void {
+    const { presets, title } = this.#figure;
+    this.#title.textContent = title;
+    const row = h('div', { class: 'presets', role: 'group', 'aria-label': 'Presets' });
+    for (const preset of presets) {
+      const button = h('button', { type: 'button', class: 'button small', onclick: () => this.#begin(preset) }, preset.name);
+      this.#presets.set(preset.id, button);
+      row.append(button);
+    }
+    const tool = (name: string, act: () => void) =>
+      h('button', { type: 'button', class: 'button small quiet', onclick: act }, name);
+    const save = (kind: 'svg' | 'png') => () =>
+      void savePicture(this.#pictures, this.#figure.id, kind).catch((error: unknown) => this.#say(error));
+    const tools = h(
+      'div',
+      { class: 'tools' },
+      tool('Reset', () => this.reset()),
+      tool('SVG', save('svg')),
+      tool('PNG', save('png')),
+    );
+    const controls = h('div', { class: 'controls' }, ...this.#controls.map(([, { element }]) => element), this.#facts);
+    this.element.append(
+      this.#title,
+      this.#trouble,
+      this.#notice,
+      h(
+        'div',
+        { class: 'figure-body' },
+        h(
+          'div',
+          { class: 'figure-stage' },
+          this.#pictures,
+          this.#busy,
+          this.#caption,
+          h('div', { class: 'figure-foot' }, row, tools),
+        ),
+        controls,
+      ),
+      this.#spoken,
+    );
+    this.#show();
+  }
+
+  async #open(): Promise<void> {
+    try {
+      const { solvers } = this.#options;
+      this.#hb = await (this.#figure.whole ? solvers.whole() : solvers.runtime());
+      if (this.#disposed) return;
+      const kit: Kit<StateOf<C>> = this.#kit(this.#hb);
+      this.#panels = Object.values(this.#figure.panels).map((panel) => panel.open(kit));
+      this.#pictures.append(...this.#panels.map(({ element }) => element));
+      this.#stir();
+    } catch (error) {
+      this.element.dataset.state = 'failed';
+      this.#say(error);
+    }
+  }
+
+  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>> {
+    const state = () => this.#state;
+    return {
+      hb,
+      get state() {
+        return state();
+      },
+      change: (patch) => this.change(patch),
+      redraw: () => this.#stir(),
+    };
+  }
+
+  #begin(preset: Preset<C>): void {
+    this.#preset = preset;
+    this.change(stateOfPreset(this.#figure.parameters, preset));
+  }
+
+  #stir(): void {
+    this.element.dataset.rest = 'no';
+    this.#show();
+    if (this.#hb) this.#frame ||= requestAnimationFrame(() => void this.#run());
+    this.#restSoon();
+  }
+
+  async #run(): Promise<void> {
+    this.#frame = 0;
+    if (this.#unmade) await this.#make();
+    else if (this.#unmoved && this.#made && !this.#work) this.#attempt(() => this.#figure.move?.(this.#made as M, this.#state));
+    this.#unmoved = false;
+    this.#draw();
+  }
+
+  /** What was made stays until there is something new; a choice that comes to nothing goes back to what is shown. */
+  async #make(): Promise<void> {
+    this.#unmade = false;
+    this.#work?.abort();
+    const work = new AbortController();
+    const [preset, state] = [this.#preset, this.#state];
+    const patience = setTimeout(() => this.#busyWith(work), PATIENCE);
+    try {
+      const making = this.#figure.make(this.#hb as HandlebodyRuntime, state, this.#worker(work.signal));
+      if (making instanceof Promise) this.#work = work;
+      const made = making instanceof Promise ? await making : making;
+      if (work.signal.aborted || this.#disposed) {
+        made.dispose?.();
+        return;
+      }
+      this.#made?.dispose?.();
+      this.#made = made;
+      this.#good = { preset, state };
+      this.#say(undefined);
+      this.element.dataset.state = 'ready';
+    } catch (error) {
+      if (this.#disposed || (work.signal.aborted && this.#work !== work)) return;
+      if (!isAbort(error)) this.#say(error);
+      if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
+      else this.#fallBack(error);
+      this.#show();
+    } finally {
+      clearTimeout(patience);
+      if (this.#work === work) this.#work = undefined;
+      if (!this.#work) this.#busy.hidden = true;
+    }
+  }
+
+  /** A link may ask for what cannot be made: then the preset stands in, and says so. */
+  #fallBack(error: unknown): void {
+    const preset = stateOfPreset(this.#figure.parameters, this.#preset);
+    if (toText(this.#figure.parameters, this.#preset, preset) === this.state) {
+      this.element.dataset.state = 'failed';
+      return;
+    }
+    this.#state = preset;
+    this.#unmade = true;
+    this.#stir();
+    const { message } = explain(error);
+    tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message}`);
+  }
+
+  #worker(signal: AbortSignal): Work {
+    return {
+      signal,
+      progress: (part, label) => {
+        const [words, bar] = this.#busy.children;
+        if (label && words) words.textContent = label;
+        if (bar instanceof HTMLProgressElement) {
+          if (part === undefined) bar.removeAttribute('value');
+          else bar.value = part;
+        }
+      },
+    };
+  }
+
+  #busyWith(work: AbortController): void {
+    const cancel = h(
+      'button',
+      { type: 'button', class: 'button small', onclick: () => work.abort(new DOMException('Cancelled.', 'AbortError')) },
+      'Cancel',
+    );
+    this.#busy.replaceChildren(h('span', {}, 'Working…'), h('progress', { max: 1, 'aria-label': 'Progress' }), cancel);
+    this.#busy.hidden = false;
+  }
+
+  #draw(): void {
+    const [made, good] = [this.#made, this.#good];
+    if (!made || !good) return;
+    this.#attempt(() => {
+      for (const panel of this.#panels) panel.draw(made, this.#state);
+    });
+  }
+
+  #restSoon(): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      // A slow machine has not drawn yet what is to be at rest.
+      if (this.#frame !== 0 || this.#work || !this.#hb) return this.#restSoon();
+      this.#rest();
+    }, REST);
+  }
+
+  #rest(): void {
+    const made = this.#made;
+    if (made) {
+      for (const panel of this.#panels) panel.refine?.();
+      this.#attempt(() => {
+        this.#told = this.#figure.told?.(made, this.#state) ?? [];
+      });
+    }
+    const words = this.#told.map(([name, value]) => [name, typeof value === 'number' ? brief(value) : value] as const);
+    this.#facts.replaceChildren(...words.flatMap(([name, value]) => [h('dt', {}, name), h('dd', {}, value)]));
+    this.#spoken.textContent = words.map(([name, value]) => `${name}: ${value}.`).join(' ');
+    const { state } = this;
+    if (state !== this.#text) {
+      const another = this.#text !== '' && state === `v1&${this.#preset.id}`;
+      this.#text = state;
+      this.#options.onChange?.(state, another);
+    }
+    this.element.dataset.rest = 'yes';
+  }
+
+  /** The controls, the caption and the row of presets say what the state is. */
+  #show(): void {
+    for (const [key, control] of this.#controls) control.show(this.#state[key]);
+    const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
+    this.#title.textContent = title;
+    this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
+    for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);
+  }
+
+  #attempt(work: () => void): void {
+    try {
+      work();
+    } catch (error) {
+      this.#say(error);
+    }
+  }
+
+  #sayLeft({ left, newer }: { readonly left: readonly string[]; readonly newer: boolean }): void {
+    const parts = left.map((part) => `“${shortened(part)}”`).join(', ');
+    if (newer) tell(this.#notice, 'This link was made by a newer version of the page: the figure begins as its preset has it.');
+    else tell(this.#notice, left.length > 0 ? `Of the link this could not be read and was left out: ${parts}.` : '');
+  }
+
+  #say(error: unknown): void {
+    const { message, remedy } = error === undefined ? { message: '', remedy: '' } : explain(error);
+    tell(this.#trouble, `${message} ${remedy}`.trim());
+  }
+}
+
+function tell(element: HTMLElement, text: string): void {
+  element.textContent = text;
+  element.hidden = text === '';
+}
+
+function shortened(text: string): string {
+  return text.length > 40 ? `${text.slice(0, 39)}…` : text;
+}

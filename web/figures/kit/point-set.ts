@@ -1,0 +1,80 @@
+import type { Channel } from './channel.ts';
+
+/** Points with a value each: on a line (dimension 1) or in the plane. Never changed in place: a move gives another set. */
+export interface PointSet {
+  readonly dimension: 1 | 2;
+  /** n × dimension */
+  readonly places: readonly number[];
+  readonly values: readonly number[];
+}
+
+/** More than these cannot be told apart. */
+const MOST_POINTS = 60;
+
+/** As every interpolant takes them. */
+export function dataOf({ dimension, places, values }: PointSet): { dimension: 1 | 2; points: number[]; values: number[] } {
+  return { dimension, points: [...places], values: [...values] };
+}
+
+/** A channel of points on a line, from places and values. */
+export function onALine(points: readonly (readonly [x: number, value: number])[]): Channel<PointSet> {
+  return channelOf({ dimension: 1, places: points.map(([x]) => x), values: points.map(([, value]) => value) });
+}
+
+/** A channel of points in the plane. */
+export function inThePlane(points: readonly (readonly [x: number, y: number, value: number])[]): Channel<PointSet> {
+  return channelOf({
+    dimension: 2,
+    places: points.flatMap((point) => point.slice(0, 2)),
+    values: points.map(([, , value]) => value),
+  });
+}
+
+/** "x,value;x,value": a line that is partly wrong is no set of points. */
+function channelOf(initial: PointSet): Channel<PointSet> {
+  const { dimension } = initial;
+  return {
+    initial,
+    write: ({ places, values }) =>
+      values.map((value, i) => [...places.slice(i * dimension, (i + 1) * dimension), value].join(',')).join(';'),
+    read: (text) => {
+      const rows = text.split(';').map((row) => row.split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part))));
+      const sound = rows.every((row) => row.length === dimension + 1 && row.every((number) => Math.abs(number) < 1e9));
+      if (!sound || rows.length > MOST_POINTS) return undefined;
+      return {
+        dimension,
+        places: rows.flatMap((row) => row.slice(0, dimension)),
+        values: rows.map((row) => row[dimension] as number),
+      };
+    },
+  };
+}
+
+/** Point `i` elsewhere: of a line both its place and its value. */
+export function movePoint(set: PointSet, i: number, across: number, up: number): PointSet {
+  const { dimension, places, values } = set;
+  if (dimension === 1) return { ...set, places: places.with(i, across), values: values.with(i, up) };
+  return { ...set, places: places.with(2 * i, across).with(2 * i + 1, up) };
+}
+
+export function removePoint(set: PointSet, i: number): PointSet {
+  const { dimension, places, values } = set;
+  return { ...set, places: places.toSpliced(i * dimension, dimension), values: values.toSpliced(i, 1) };
+}
+
+export function addPoint(set: PointSet, place: readonly number[], value: number): PointSet {
+  if (set.values.length >= MOST_POINTS) return set;
+  return { ...set, places: [...set.places, ...place], values: [...set.values, value] };
+}
+
+/** What is drawn of point `i`: place and value of a point on a line, else both coordinates. */
+export function placeOf({ dimension, places, values }: PointSet, i: number): readonly [across: number, up: number] {
+  if (dimension === 1) return [places[i] ?? 0, values[i] ?? 0];
+  return [places[2 * i] ?? 0, places[2 * i + 1] ?? 0];
+}
+
+/** A number fine enough for a screen, and short enough for an address. */
+export function tidy(value: number, span: number): number {
+  const unit = 10 ** Math.floor(Math.log10(Math.abs(span) / 2000 || 1e-3));
+  return Number((Math.round(value / unit) * unit).toPrecision(12));
+}

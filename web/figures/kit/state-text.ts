@@ -1,0 +1,87 @@
+import type { Channels, StateOf } from './channel.ts';
+
+/*
+ * A figure's state as one line of text, which pages put into their address: "v1&fig-9" is a preset, and "v1&from=fig-9&power=3" one that was
+ * changed. Only what differs from the preset is written. The line begins with the version of this format; lines of before there was one,
+ * without it, are read as version 1.
+ */
+
+const VERSION = 1;
+
+/** A state that a figure can begin with. */
+export interface Preset<C extends Channels> {
+  readonly id: string;
+  /** In the row of presets. */
+  readonly name: string;
+  readonly title?: string;
+  /** What to look at, and what to do with it. */
+  readonly look?: string;
+  readonly attempt?: string;
+  /** What differs from the channels' own first values. */
+  readonly state: Partial<StateOf<C>>;
+}
+
+interface ReadState<C extends Channels> {
+  readonly preset: Preset<C>;
+  readonly state: StateOf<C>;
+  /** What the text says that could not be read, as it stands there. */
+  readonly left: readonly string[];
+  /** Written by a version of this format that is newer than this one: only its preset was taken. */
+  readonly newer: boolean;
+}
+
+export function stateOfPreset<C extends Channels>(channels: C, preset: Preset<C>): StateOf<C> {
+  const initial = Object.entries(channels).map(([key, channel]) => [key, channel.initial]);
+  return { ...Object.fromEntries(initial), ...preset.state };
+}
+
+export function toText<C extends Channels>(channels: C, preset: Preset<C>, state: StateOf<C>): string {
+  const base = stateOfPreset(channels, preset);
+  const changed = Object.entries(channels).flatMap(([key, channel]) => {
+    const text = channel.write(state[key]);
+    return text === channel.write(base[key]) ? [] : [`${key}=${escaped(text)}`];
+  });
+  return [`v${VERSION}`, ...(changed.length === 0 ? [preset.id] : [`from=${preset.id}`, ...changed])].join('&');
+}
+
+/** The state that a text says, as far as it can be read; the first preset where it says nothing. Never throws. */
+export function fromText<C extends Channels>(channels: C, presets: readonly Preset<C>[], text: string): ReadState<C> {
+  const [first] = presets;
+  if (!first) throw new Error('A figure needs a preset.');
+  const parts = text.replace(/^#/, '').split('&').filter(Boolean);
+  const version = Number(/^v(\d+)$/.exec(parts[0] ?? '')?.[1] ?? Number.NaN);
+  if (!Number.isNaN(version)) parts.shift();
+  let preset = first;
+  const left: string[] = [];
+  const given: (readonly [part: string, key: string, text: string])[] = [];
+  for (const part of parts) {
+    const at = part.indexOf('=');
+    const [key, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
+    const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
+    if (named) preset = named;
+    else given.push([part, key, plain(value)]);
+  }
+  const state: Record<string, unknown> = { ...stateOfPreset(channels, preset) };
+  const newer = version > VERSION;
+  if (!newer) {
+    for (const [part, key, value] of given) {
+      const read = Object.hasOwn(channels, key) ? channels[key]?.read(value) : undefined;
+      if (read === undefined) left.push(plain(part));
+      else state[key] = read;
+    }
+  }
+  return { preset, state: state as StateOf<C>, left, newer };
+}
+
+/** Without what separates the parts, and what ends an address. */
+function escaped(text: string): string {
+  return text.replace(/[%&#\s]/g, encodeURIComponent);
+}
+
+function plain(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}

@@ -1,0 +1,33 @@
+import { h } from './dom.ts';
+import { explain } from './explain.ts';
+
+/** A page's one line for what went wrong: a sentence, what to do about it and, where that may help, a button that tries again. */
+export class Trouble {
+  readonly #area: HTMLElement;
+  readonly #returnTo: () => HTMLElement | null;
+
+  /** `returnTo` gets the focus when the line goes and had it. */
+  constructor(area: HTMLElement, returnTo: () => HTMLElement | null) {
+    this.#area = area;
+    this.#returnTo = returnTo;
+  }
+
+  tell(error: unknown, again?: () => void): void {
+    const { message, remedy } = explain(error);
+    const act = (then?: () => void) => () => {
+      this.clear();
+      then?.();
+    };
+    const retry = again && h('button', { type: 'button', class: 'button small', onclick: act(again) }, 'Try again');
+    const dismiss = h('button', { type: 'button', class: 'dismiss', 'aria-label': 'Dismiss this message', onclick: act() }, '×');
+    this.#area.replaceChildren(h('span', {}, `${message} ${remedy}`), ...(retry ? [retry] : []), dismiss);
+    this.#area.hidden = false;
+  }
+
+  clear(): void {
+    const focused = this.#area.contains(document.activeElement);
+    this.#area.replaceChildren();
+    this.#area.hidden = true;
+    if (focused) this.#returnTo()?.focus();
+  }
+}
