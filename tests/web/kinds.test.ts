@@ -7,7 +7,7 @@ import { createServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { listen } from './support/listen.ts';
 import { cramped } from './support/manners.ts';
-import { frames, launch, soon } from './support/studio.ts';
+import { fingers, frames, launch, PHONE, soon } from './support/studio.ts';
 
 interface Kinds {
   readonly address: string;
@@ -349,6 +349,42 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
     if (!card) return skip();
     await interrupt(page, kinds);
   });
+});
+
+it.each([
+  ['studio/#face', '[data-state=ready]', '.pad'],
+  ['learn/interpolation/#line', '[data-rest=yes]', '.chart-area'],
+  ['learn/interpolation/#plane', '[data-rest=yes]', '.field-area'],
+  ['learn/gingerbread/', '[data-rest=yes]', '.overlay'],
+])('two fingers on a picture in the plane zoom the page: %s', async (address, ready, plot) => {
+  const page = await browser.newPage({ ...PHONE, reducedMotion: 'reduce' });
+  onTestFinished(() => page.close());
+  await page.goto(inject('site') + address, { waitUntil: 'commit', timeout: 60_000 });
+  await page.waitForSelector(ready, { timeout: 60_000 });
+  // Where no handle is.
+  const [x, y] = await page
+    .locator(plot)
+    .first()
+    .evaluate((element) => {
+      const r = element.getBoundingClientRect();
+      const isFree = (px: number, py: number) =>
+        [px, px + 24].every((at) => !document.elementFromPoint(at, py)?.closest('button, .grip'));
+      for (let down = 8; down < r.height - 8; down += 4)
+        for (let across = 8; across < r.width - 40; across += 4)
+          if (isFree(r.x + across, r.y + down)) return [r.x + across, r.y + down] as const;
+      throw new Error('there is a handle everywhere');
+    });
+  const touch = await fingers(page);
+  const before = await page.locator('.place, #live').first().textContent();
+  await touch('touchStart', [x, y, 1]);
+  await touch('touchStart', [x, y, 1], [x + 24, y, 2]);
+  for (let i = 1; i <= 8; i++) {
+    await touch('touchMove', [x - 4 * i, y, 1], [x + 24 + 12 * i, y, 2]);
+    await frames(page, 1);
+  }
+  await touch('touchEnd');
+  await soon(() => page.evaluate(() => visualViewport?.scale ?? 0)).toBeGreaterThan(1.2);
+  expect(await page.locator('.place, #live').first().textContent()).toBe(before);
 });
 
 it('surfaces say that the graphics card was interrupted, keep the last picture, and come back', async () => {

@@ -65,8 +65,9 @@ export class Pad {
     this.element.addEventListener('pointerdown', (event) => {
       if (event.button !== 0 || isDragging()) return;
       // A finger beside the puck may be about to scroll the page: it counts when it moves sideways or lifts.
-      if (event.pointerType === 'touch') this.#tap ??= { pointer: event.pointerId, x: event.clientX, y: event.clientY };
-      else call(event, SNAP);
+      // Two fingers zoom the page.
+      if (event.pointerType !== 'touch') call(event, SNAP);
+      else this.#tap = this.#tap ? undefined : { pointer: event.pointerId, x: event.clientX, y: event.clientY };
     });
     this.element.addEventListener('pointermove', (event) => {
       if (event.pointerId !== this.#tap?.pointer) return;
