@@ -114,17 +114,14 @@ class DefiniteFit final : public LinearFit, private Inverse {
   }
 
   std::optional<MatrixXd> fitted(const MatrixXd& coefficients) const override {
-    const Index n = cholesky_->rows();
-    const MatrixXd& kernels = cholesky_->factor();
+    const MatrixXd& kernels = cholesky_->factor();  // above its diagonal, which is the factor's
     const MatrixXd x = coefficients.transpose();
     MatrixXd result = product(polynomials_, x.bottomRows(tail_));
-    for (Index out = 0; out < x.cols(); ++out)
-      for (Index j = 0; j < n; ++j) {
-        const auto above = kernels.col(j).head(j);
-        const double c = sign_ * x(j, out);
-        result(j, out) += diagonal_[j] * c + sign_ * above.dot(x.col(out).head(j));
-        result.col(out).head(j) += c * above;
-      }
+    for (Index out = 0; out < x.cols(); ++out) {
+      const Vector c = sign_ * x.col(out).head(kernels.rows());
+      result.col(out) += kernels.selfadjointView<Eigen::Upper>() * c;
+      result.col(out) += (diagonal_ - kernels.diagonal()).cwiseProduct(c);
+    }
     return result;
   }
 

@@ -21,6 +21,23 @@ constexpr double ln2_high = 0x1.62e42feep-1,
 constexpr double integer_shift = 6755399441055744.0;  // 1.5 · 2⁵²: adding it puts an integer into the lowest bits
 constexpr std::uint64_t integer_shift_bits = 0x4338000000000000u, root_half_bits = 0x3fe6a09e667f3bcdu;
 
+constexpr double artanh_terms[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11, 2.0 / 13,
+                                   2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23};  // of (2 artanh s − 2s)/s³, in s²
+constexpr double exponential_terms[] = {1.0 / 2,       1.0 / 6,        1.0 / 24,        1.0 / 120,
+                                        1.0 / 720,     1.0 / 5040,     1.0 / 40320,     1.0 / 362880,
+                                        1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};  // 1/k! from k = 2 on
+
+/** Σ cₖ xᵏ. Even and odd powers in separate sums, so that neither waits for the other. */
+template <std::size_t n>
+Reals power_series(const double (&c)[n], const Reals& x) {
+  const Reals z = x * x;
+  Reals sums[2];
+  sums[n % 2] = Reals{} + c[n - 2];
+  sums[(n - 1) % 2] = Reals{} + c[n - 1];
+  for (std::size_t k = n - 2; k-- > 0;) sums[k % 2] = sums[k % 2] * z + c[k];
+  return sums[0] + x * sums[1];
+}
+
 void logarithm(Reals& x) {
   // x = 2ᵏ m with m in [√½, √2); ln m = 2 artanh s, s = (m − 1)/(m + 1), |s| < 0.172: eleven terms of its series.
   const Words bits = (Words)x;
@@ -28,17 +45,7 @@ void logarithm(Reals& x) {
   const Reals m = (Reals)(bits - (k << 52));
   const Reals exponent = (Reals)(k + integer_shift_bits) - integer_shift;
   const Reals s = (m - 1) / (m + 1), z = s * s;
-  const Reals z2 = z * z;  // even and odd powers in separate sums, so that neither waits for the other
-  Reals even = z2 * (2.0 / 23) + 2.0 / 19, odd = z2 * (2.0 / 21) + 2.0 / 17;
-  even = even * z2 + 2.0 / 15;
-  odd = odd * z2 + 2.0 / 13;
-  even = even * z2 + 2.0 / 11;
-  odd = odd * z2 + 2.0 / 9;
-  even = even * z2 + 2.0 / 7;
-  odd = odd * z2 + 2.0 / 5;
-  even = even * z2 + 2.0 / 3;
-  const Reals sum = even + z * odd;
-  x = exponent * ln2_high + (exponent * ln2_low + s * z * sum + 2 * s);
+  x = exponent * ln2_high + (exponent * ln2_low + s * z * power_series(artanh_terms, z) + 2 * s);
 }
 
 void decaying_exponential(Reals& x) {
@@ -47,17 +54,7 @@ void decaying_exponential(Reals& x) {
   const Reals t = -(Reals)((Words)x & in_range);
   const Reals shifted = t * 1.4426950408889634 + integer_shift, k = shifted - integer_shift;
   const Reals r = (t - k * ln2_high) - k * ln2_low;
-  const Reals z = r * r;  // even and odd powers in separate sums, so that neither waits for the other
-  Reals even = z * (1.0 / 479001600) + 1.0 / 3628800, odd = z * (1.0 / 6227020800) + 1.0 / 39916800;
-  even = even * z + 1.0 / 40320;
-  odd = odd * z + 1.0 / 362880;
-  even = even * z + 1.0 / 720;
-  odd = odd * z + 1.0 / 5040;
-  even = even * z + 1.0 / 24;
-  odd = odd * z + 1.0 / 120;
-  even = even * z + 0.5;
-  odd = odd * z + 1.0 / 6;
-  const Reals sum = 1 + (r + z * (even + r * odd));
+  const Reals sum = 1 + (r + r * r * power_series(exponential_terms, r));
   const Reals scale = (Reals)(((Words)shifted + 1023) << 52);
   x = (Reals)((Words)(sum * scale) & in_range);
 }
