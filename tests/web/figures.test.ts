@@ -29,7 +29,7 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
   });
 
   it('every preset opens by its button and by its link, says what to look at, and back goes back', async () => {
-    const { presets } = await load();
+    const { presets } = (await load()).default;
     const { page, said } = await openFigure(browser, id);
     for (const preset of presets) {
       await page.getByRole('button', { name: preset.name, exact: true }).click();

@@ -4,18 +4,11 @@ import type { AnyFigure } from './kit/figure.ts';
 export interface Listed {
   readonly id: string;
   readonly title: string;
-  load(): Promise<AnyFigure>;
+  load(): Promise<{ readonly default: AnyFigure }>;
 }
 
 export const FIGURES: readonly Listed[] = [
-  {
-    id: 'course-12',
-    title: 'Weighted kernels, and their sum',
-    load: async () => (await import('./course/course-12.ts')).default,
-  },
-  {
-    id: 'course-20',
-    title: 'Four corners and a peak, regularized',
-    load: async () => (await import('./course/course-20.ts')).default,
-  },
+  { id: 'course-12', title: 'Weighted kernels, and their sum', load: () => import('./course/course-12.ts') },
+  { id: 'course-20', title: 'Four corners and a peak, regularized', load: () => import('./course/course-20.ts') },
+  { id: 'solid', title: 'Weights of a solid', load: () => import('./skinning/solid.ts') },
 ];

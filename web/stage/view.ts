@@ -1,21 +1,9 @@
-import {
-  ACESFilmicToneMapping,
-  Box3,
-  MOUSE,
-  type Object3D,
-  PerspectiveCamera,
-  Scene,
-  Sphere,
-  TOUCH,
-  Vector3,
-  VSMShadowMap,
-  WebGLRenderer,
-} from 'three';
+import { Box3, MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
-import { PageError } from '../ui/page-error.ts';
 import { onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
 import { disposeObject } from './dispose-object.ts';
+import { type Easel, easelOf, type PictureSize } from './easel.ts';
 import { fitCamera } from './fit-camera.ts';
 import { keepTwoFingers, shareWheel } from './gestures.ts';
 import { StudioLight } from './light.ts';
@@ -27,7 +15,7 @@ export type Step = (seconds: number) => boolean;
 const FIELD_OF_VIEW = 32;
 const MOVE_SECONDS = 0.35;
 
-/** The picture: renderer, camera, light. Draws when something changed and sleeps otherwise. */
+/** The picture: camera, light, object. Draws when something changed and sleeps otherwise. */
 export class View {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
   readonly light = new StudioLight();
@@ -37,8 +25,9 @@ export class View {
   /** Gets a sentence while the graphics card is interrupted, and none when it is back. */
   onInterrupted: (words: string) => void = () => {};
   readonly #scene = new Scene();
-  readonly #renderer: WebGLRenderer;
+  readonly #canvas: HTMLCanvasElement;
   readonly #area: HTMLElement;
+  readonly #easel: Easel;
   readonly #steps = new Set<Step>();
   readonly #left = new AbortController();
   #object: Object3D | undefined;
@@ -48,24 +37,15 @@ export class View {
   #last = 0;
   /** The last frame asked for this one, so the time between them passed in a movement. */
   #awake = false;
+  #size: PictureSize = { width: 0, height: 0, ratio: 1 };
+  #shadows = true;
 
-  /** `area` is the element that holds exactly the canvas; pointers on it turn the camera. Throws when there is no WebGL. */
-  constructor(canvas: HTMLCanvasElement, area: HTMLElement) {
-    this.#area = area;
-    const attributes = { alpha: true, antialias: true, depth: true, stencil: false, premultipliedAlpha: true };
-    const context = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
-    if (!context) {
-      throw new PageError(
-        'webgl-unavailable',
-        'This browser offers no WebGL 2, so there is no 3D picture.',
-        'Turn on hardware acceleration in the browser’s settings, or open the page in another current browser.',
-      );
-    }
-    this.#renderer = new WebGLRenderer({ ...attributes, canvas, context });
-    this.#renderer.toneMapping = ACESFilmicToneMapping;
-    this.#renderer.shadowMap.enabled = true;
-    this.#renderer.shadowMap.type = VSMShadowMap;
-    this.#renderer.shadowMap.autoUpdate = false;
+  /**
+   * `area` is the element that holds exactly the canvas; pointers on it turn the camera. Throws when there is no WebGL. Views of one page may
+   * share an easel.
+   */
+  constructor(canvas: HTMLCanvasElement, area: HTMLElement, easel = easelOf(canvas)) {
+    [this.#canvas, this.#area, this.#easel] = [canvas, area, easel];
     this.#scene.add(this.light.group);
 
     const { signal } = this;
@@ -86,7 +66,7 @@ export class View {
     onMotionChange(damp, signal);
 
     onInterruption(
-      canvas,
+      easel.source,
       (words) => this.onInterrupted(words),
       () => this.changed(),
       signal,
@@ -162,7 +142,7 @@ export class View {
 
   /** The shape or what casts shadows changed: draws a frame with new shadows. */
   changed(): void {
-    this.#renderer.shadowMap.needsUpdate = true;
+    this.#shadows = true;
     this.invalidate();
   }
 
@@ -189,9 +169,7 @@ export class View {
     this.controls.dispose();
     if (this.#object) disposeObject(this.#object);
     this.light.dispose();
-    this.#renderer.dispose();
-    // What the context holds by itself goes with the canvas; its pixels go now.
-    this.#renderer.setSize(1, 1, false);
+    this.#easel.leave();
   }
 
   /** Calls `move` with the parts of a movement that add up to 1. */
@@ -220,14 +198,16 @@ export class View {
     for (const step of [...this.#steps]) if (!step(seconds)) this.#steps.delete(step);
     this.controls.update();
     // Browsers do not always say that the window has gone to a screen with other pixels.
-    if (this.#renderer.getPixelRatio() === pixelRatio()) this.#paint();
+    if (this.#size.ratio === pixelRatio()) this.#paint();
     else this.#layout();
     this.#awake = this.#steps.size > 0;
     if (this.#awake) this.invalidate();
   }
 
   #paint(): void {
-    this.#renderer.render(this.#scene, this.camera);
+    if (this.#size.width === 0) return;
+    this.#easel.paint(this.#canvas, this.#scene, this.camera, this.#size, this.#shadows);
+    this.#shadows = false;
     this.onDrawn();
   }
 
@@ -237,8 +217,7 @@ export class View {
     if (width === 0 || height === 0) return;
     this.#area.style.setProperty('--shape', `${width} / ${height}`);
     this.light.dark = matchMedia('(prefers-color-scheme: dark)').matches;
-    this.#renderer.setPixelRatio(pixelRatio());
-    this.#renderer.setSize(width, height, false);
+    this.#size = { width, height, ratio: pixelRatio() };
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     // Now, not in the next frame: the canvas has just lost what was on it.

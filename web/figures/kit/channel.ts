@@ -29,10 +29,19 @@ export interface Range extends Channel<number>, Described {
   readonly step: number;
 }
 
-/** One of several words. */
+/** A number on a slider, or what the solver chooses. */
+export interface AutoRange extends Channel<number | 'auto'>, Omit<Range, keyof Channel<number> | 'type'> {
+  readonly type: 'auto-range';
+}
+
+/** A word that can be chosen, its label and, where it is chosen, what it means. */
+type Option<T extends string> = readonly [value: T, label: string, about?: string];
+
+/** One of several words: in a menu, or all of them to be seen. */
 export interface Choice<T extends string = string> extends Channel<T>, Described {
   readonly type: 'choice';
-  readonly options: readonly (readonly [value: T, label: string])[];
+  readonly options: readonly Option<T>[];
+  readonly open: boolean;
 }
 
 export interface Switch extends Channel<boolean>, Described {
@@ -40,22 +49,22 @@ export interface Switch extends Channel<boolean>, Described {
 }
 
 /** A channel with a control of its own. */
-export type Parameter = Range | Choice | Switch;
+export type Parameter = Range | AutoRange | Choice | Switch;
 
 export function isParameter(channel: Channel<unknown>): channel is Parameter {
-  return 'type' in channel && ['range', 'choice', 'switch'].includes(channel.type as string);
+  return 'type' in channel && ['range', 'auto-range', 'choice', 'switch'].includes(channel.type as string);
 }
 
-interface RangeOptions {
+interface RangeOptions<T> {
   readonly from: number;
   readonly to: number;
-  readonly value: number;
+  readonly value: T;
   readonly scale?: Range['scale'];
   readonly step?: number;
   readonly rare?: boolean;
 }
 
-export function range(label: string, { from, to, value, scale = 'even', step = 0.1, rare = false }: RangeOptions): Range {
+export function range(label: string, { from, to, value, scale = 'even', step = 0.1, rare = false }: RangeOptions<number>): Range {
   const low = scale === 'log-zero' ? 0 : from;
   return {
     type: 'range',
@@ -74,11 +83,23 @@ export function range(label: string, { from, to, value, scale = 'even', step = 0
   };
 }
 
+/** As `range`; "auto" is one of its values. */
+export function autoRange(label: string, options: RangeOptions<number | 'auto'>): AutoRange {
+  const numbers = range(label, { ...options, value: options.from });
+  return {
+    ...numbers,
+    type: 'auto-range',
+    initial: options.value,
+    read: (text) => (text === 'auto' ? 'auto' : numbers.read(text)),
+    write: String,
+  };
+}
+
 /** The first option is the one that it begins with. */
 export function choice<T extends string>(
   label: string,
-  options: readonly (readonly [value: T, label: string])[],
-  { rare = false }: { readonly rare?: boolean } = {},
+  options: readonly Option<T>[],
+  { rare = false, open = false }: { readonly rare?: boolean; readonly open?: boolean } = {},
 ): Choice<T> {
   const [first] = options;
   if (!first) throw new Error('A choice needs an option.');
@@ -89,6 +110,7 @@ export function choice<T extends string>(
     options,
     initial: first[0],
     rare,
+    open,
     read: (text) => values.find((value) => value === text),
     write: (value) => value,
   };

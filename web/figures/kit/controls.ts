@@ -1,26 +1,73 @@
 import { h } from '../../ui/dom.ts';
-import type { Choice, Parameter, Range, Switch } from './channel.ts';
+import { type AutoRange, type Channels, type Choice, isParameter, type Parameter, type Range, type StateOf, type Switch } from './channel.ts';
+import type { Figure, PartControl } from './figure.ts';
 import { fromLog, toLog } from './scale.ts';
 import { brief } from './words.ts';
 
 /** A labelled control for one parameter. */
-export interface Control {
+interface Control {
   readonly element: HTMLElement;
   show(value: unknown): void;
 }
+
+/** A control that shows its part of a state. */
+export interface PartShown<S> {
+  readonly element: HTMLElement;
+  show(state: S): void;
+}
+
+type Change = (value: number | string | boolean) => void;
 
 /** Positions of a slider on a logarithmic scale. */
 const NOTCHES = 400;
 
 let nextId = 1;
 
-/** The control that a parameter asks for; `change` hears every new value, while a slider moves too. */
-export function controlOf(parameter: Parameter, change: (value: number | string | boolean) => void): Control {
-  if (parameter.type === 'range') return slider(parameter, change);
-  return parameter.type === 'choice' ? select(parameter, change) : checkbox(parameter, change);
+/** What a figure lets one set: its parameters, and then parts of other channels. */
+export function partsOf<C extends Channels, M extends object>({ parameters, parts = [] }: Figure<C, M>): readonly PartControl<StateOf<C>>[] {
+  const own = Object.entries(parameters).flatMap(([key, parameter]): PartControl<StateOf<C>>[] =>
+    isParameter(parameter)
+      ? [{ parameter: () => parameter, read: (state) => state[key], write: (_, value) => ({ [key]: value }) as unknown as Partial<StateOf<C>> }]
+      : [],
+  );
+  return [...own, ...parts];
 }
 
-function slider({ label, low, high, scale, step }: Range, change: (value: number) => void): Control {
+/** The control of a part; another one where the state asks for one of another kind. `change` hears every new value. */
+export function partControl<S>({ parameter, read }: PartControl<S>, first: S, change: Change): PartShown<S> {
+  const element = h('div', {});
+  element.style.display = 'contents';
+  let [kind, control] = ['', undefined as Control | undefined];
+  const show = (state: S) => {
+    const asked = parameter(state);
+    const next = JSON.stringify(asked);
+    if (next !== kind) {
+      const focused = element.contains(document.activeElement);
+      control = controlOf(asked, change);
+      element.replaceChildren(control.element);
+      if (focused) element.querySelector<HTMLElement>('input, select')?.focus();
+    }
+    kind = next;
+    control?.show(read(state));
+  };
+  show(first);
+  return { element, show };
+}
+
+function controlOf(parameter: Parameter, change: Change): Control {
+  switch (parameter.type) {
+    case 'range':
+      return slider(parameter, change);
+    case 'auto-range':
+      return autoSlider(parameter, change);
+    case 'choice':
+      return parameter.open ? radios(parameter, change) : select(parameter, change);
+    case 'switch':
+      return checkbox(parameter, change);
+  }
+}
+
+function slider({ label, low, high, scale, step }: Range | AutoRange, change: Change): Control {
   const even = scale === 'even';
   const zero = scale === 'log-zero';
   const id = `control-${nextId++}`;
@@ -33,19 +80,38 @@ function slider({ label, low, high, scale, step }: Range, change: (value: number
     step: even ? step : 1,
     oninput: () => change(even ? input.valueAsNumber : fromLog(input.valueAsNumber / NOTCHES, low, high, zero)),
   });
-  const show = (value: unknown) => {
-    const number = value as number;
-    const at = even ? number : Math.round(toLog(number, low, high, zero) * NOTCHES);
-    if (input.valueAsNumber !== at) input.value = String(at);
-    const text = brief(number);
+  const say = (text: string) => {
     if (output.textContent === text) return;
     output.textContent = text;
     input.setAttribute('aria-valuetext', text);
   };
+  const show = (value: unknown) => {
+    if (typeof value !== 'number') return say('automatic');
+    const at = even ? value : Math.round(toLog(value, low, high, zero) * NOTCHES);
+    if (input.valueAsNumber !== at) input.value = String(at);
+    say(brief(value));
+  };
   return { element: h('div', { class: 'control' }, h('label', { for: id }, label), output, input), show };
 }
 
-function select({ label, options }: Choice, change: (value: string) => void): Control {
+/** The solver's own choice is a tick away; a slider that is moved takes it back. */
+function autoSlider(parameter: AutoRange, change: Change): Control {
+  const { element, show } = slider(parameter, change);
+  const input = element.querySelector('input') as HTMLInputElement;
+  const { low, high } = parameter;
+  const box = checkbox({ label: `${parameter.label}: choose it for me` }, (automatic) =>
+    change(automatic ? 'auto' : fromLog(input.valueAsNumber / NOTCHES, low, high)),
+  );
+  return {
+    element: h('div', { class: 'control-group' }, element, box.element),
+    show: (value) => {
+      show(value);
+      box.show(value === 'auto');
+    },
+  };
+}
+
+function select({ label, options }: Choice, change: Change): Control {
   const id = `control-${nextId++}`;
   const input = h(
     'select',
@@ -58,8 +124,21 @@ function select({ label, options }: Choice, change: (value: string) => void): Co
   return { element: h('div', { class: 'control' }, h('label', { for: id }, label), input), show };
 }
 
+function radios({ label, options }: Choice, change: Change): Control {
+  const name = `control-${nextId++}`;
+  const about = h('p', { class: 'soft', hidden: true });
+  const inputs = options.map(([value]) => h('input', { type: 'radio', name, value, onchange: () => change(value) }));
+  const labels = inputs.map((input, i) => h('label', {}, input, h('span', {}, options[i]?.[1] ?? '')));
+  const show = (value: unknown) => {
+    for (const input of inputs) input.checked = input.value === value;
+    about.textContent = options.find((option) => option[0] === value)?.[2] ?? '';
+    about.hidden = about.textContent === '';
+  };
+  return { element: h('fieldset', { class: 'choices' }, h('legend', {}, label), ...labels, about), show };
+}
+
 /** A box to tick, its words beside it. */
-function checkbox({ label }: Switch, change: (value: boolean) => void): Control {
+function checkbox({ label }: Pick<Switch, 'label'>, change: (value: boolean) => void): Control {
   const input = h('input', { type: 'checkbox', onchange: () => change(input.checked) });
   const show = (value: unknown) => {
     input.checked = value === true;

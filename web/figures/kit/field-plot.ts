@@ -48,8 +48,6 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
   readonly #axis = new Float64Array(SECTION_STEPS);
   readonly #places = new Float64Array(2 * SECTION_STEPS);
   #picked = -1;
-  #last: { readonly made: M; readonly state: S } | undefined;
-  #resting = false;
 
   constructor(kit: Kit<S>, options: FieldPlotOptions<M, S>) {
     [this.#kit, this.#options] = [kit, options];
@@ -60,13 +58,11 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
   }
 
   draw(made: M, state: S): void {
-    this.#last = { made, state };
-    this.#draw(made, state, this.#resting);
-    this.#resting = false;
+    this.#draw(made, state, false);
   }
 
-  refine(): void {
-    if (this.#last) this.#draw(this.#last.made, this.#last.state, true);
+  refine(made: M, state: S): void {
+    this.#draw(made, state, true);
   }
 
   dispose(): void {

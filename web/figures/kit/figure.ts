@@ -1,13 +1,17 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
-import type { Channels, StateOf } from './channel.ts';
+import type { Channels, Parameter, StateOf } from './channel.ts';
 import type { Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
-export interface Work {
+export interface Work<M = unknown> {
   /** Aborted when the work is cancelled or something else was asked for. */
   readonly signal: AbortSignal;
   /** The part done, 0 to 1; nothing where nobody knows. */
   progress(part: number | undefined, label?: string): void;
+  /** What can be drawn before all is made. */
+  preview(made: M): void;
+  /** No worker could be started, so the page's own thread does the work: the figure says so. */
+  alone(): void;
 }
 
 /** What a panel can ask for. */
@@ -30,12 +34,20 @@ export interface OpenPanel<M, S> {
   /** Once a frame at the most. */
   draw(made: M, state: S): void;
   /** Draws again as well as it can: nothing has changed for a while. */
-  refine?(): void;
+  refine?(made: M, state: S): void;
   dispose(): void;
 }
 
 /** A name, and a number or a sentence. */
 export type Told = readonly [name: string, value: number | string];
+
+/** A control for a part of a channel, or for what another channel chooses. */
+export interface PartControl<S> {
+  /** The same one as long as it is of the same kind: what it returns is compared. */
+  parameter(state: S): Parameter;
+  read(state: S): unknown;
+  write(state: S, value: never): Partial<S>;
+}
 
 /** A figure: what can be set, what the solver makes of it, how that is drawn. */
 export interface Figure<C extends Channels, M> {
@@ -44,16 +56,24 @@ export interface Figure<C extends Channels, M> {
   readonly title: string;
   /** What its state holds. Those with controls get them, in this order. */
   readonly parameters: C;
+  /** Further controls, after these. */
+  readonly parts?: readonly PartControl<StateOf<C>>[];
   /** The first one is how it begins. */
   readonly presets: readonly Preset<C>[];
+  /** What channels were called in links of before texts had a version: `from` is the preset. */
+  readonly former?: Readonly<Record<string, keyof C | 'from'>>;
   /** Channels for which nothing is made anew: `move` hears of them in each frame of a drag. */
   readonly moving?: readonly (keyof C)[];
   /** Channels that only the pictures depend on. */
   readonly shown?: readonly (keyof C)[];
   /** The whole solver is fetched, where a figure bakes or computes weights. */
   readonly whole?: boolean;
-  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work): M | Promise<M>;
-  move?(made: M, state: StateOf<C>): void;
+  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>): M | Promise<M>;
+  /** Whether there is more to do with the next frame. */
+  // biome-ignore lint/suspicious/noConfusingVoidType: most have nothing to say
+  move?(made: M, state: StateOf<C>): boolean | void;
+  /** What takes longer than a frame, and is made when nothing moves: before the last picture, and before `told`. */
+  settle?(made: M, state: StateOf<C>): void;
   readonly panels: Readonly<Record<string, Panel<M, StateOf<C>>>>;
   /** For readers, tables and the figure's test: the solver's own numbers. */
   told?(made: M, state: StateOf<C>): readonly Told[];

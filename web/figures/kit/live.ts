@@ -2,9 +2,13 @@ import type { Handlebody } from '../../../wasm/ts/index.ts';
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import { h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
+import { NotFetched } from '../../ui/lazy.ts';
 import { isAbort } from '../../ui/messages.ts';
-import { type Channels, isParameter, type Parameter, type StateOf } from './channel.ts';
-import { type Control, controlOf } from './controls.ts';
+import { PageError } from '../../ui/page-error.ts';
+import { Progress } from '../../ui/progress.ts';
+import { Trouble } from '../../ui/trouble.ts';
+import type { Channels, StateOf } from './channel.ts';
+import { type PartShown, partControl, partsOf } from './controls.ts';
 import type { Figure, Kit, OpenPanel, Told, Work } from './figure.ts';
 import { savePicture } from './save-picture.ts';
 import { fromText, type Preset, stateOfPreset, toText } from './state-text.ts';
@@ -40,15 +44,17 @@ export class Live<C extends Channels, M extends Disposable> {
   readonly #figure: Figure<C, M>;
   readonly #options: LiveOptions;
   readonly #title = h('h2', { class: 'figure-title' });
-  readonly #trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
+  readonly #said = h('p', { class: 'trouble', role: 'alert', hidden: true });
+  readonly #trouble = new Trouble(this.#said, () => this.element.querySelector('button'));
   /** What of a link could not be read, until something is changed. */
   readonly #notice = h('p', { class: 'notice', role: 'status', hidden: true });
-  readonly #busy = h('div', { class: 'busy', hidden: true });
+  readonly #busy = h('div', { class: 'progress', hidden: true });
+  readonly #progress = new Progress(this.#busy);
   readonly #pictures = h('div', { class: 'panels' });
   readonly #caption = h('p', { class: 'caption' });
   readonly #facts = h('dl', { class: 'facts' });
   readonly #spoken = h('p', { class: 'unseen', role: 'status' });
-  readonly #controls: readonly (readonly [key: string, control: Control])[];
+  readonly #controls: PartShown<StateOf<C>>[];
   readonly #presets = new Map<string, HTMLButtonElement>();
   #panels: OpenPanel<M, StateOf<C>>[] = [];
   #hb: HandlebodyRuntime | undefined;
@@ -60,6 +66,8 @@ export class Live<C extends Channels, M extends Disposable> {
   #work: AbortController | undefined;
   #unmade = true;
   #unmoved = false;
+  /** No worker could be started: said until it is dismissed. */
+  #alone = false;
   #frame = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #told: readonly Told[] = [];
@@ -69,14 +77,11 @@ export class Live<C extends Channels, M extends Disposable> {
   constructor(figure: Figure<C, M>, options: LiveOptions) {
     this.#figure = figure;
     this.#options = options;
-    const read = fromText(figure.parameters, figure.presets, options.state ?? '');
+    const read = fromText(figure.parameters, figure.presets, options.state ?? '', figure.former);
     [this.#preset, this.#state] = [read.preset, read.state];
-    this.#controls = Object.entries(figure.parameters)
-      .filter((entry): entry is [string, Parameter] => isParameter(entry[1]))
-      .map(([key, parameter]) => [
-        key,
-        controlOf(parameter, (value) => this.change({ [key]: value } as unknown as Partial<StateOf<C>>)),
-      ]);
+    this.#controls = partsOf(figure).map((part) =>
+      partControl(part, this.#state, (value) => this.change(part.write(this.#visible, value as never))),
+    );
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;
     this.element.dataset.state = 'loading';
@@ -93,10 +98,15 @@ export class Live<C extends Channels, M extends Disposable> {
 
   set state(text: string) {
     if (text === this.state) return;
-    const read = fromText(this.#figure.parameters, this.#figure.presets, text);
+    const read = fromText(this.#figure.parameters, this.#figure.presets, text, this.#figure.former);
     this.#preset = read.preset;
     this.change(read.state);
     this.#sayLeft(read);
+  }
+
+  /** What the pictures are of: the state, but for what is still being made. */
+  get #visible(): StateOf<C> {
+    return (this.#work && this.#good?.state) ?? this.#state;
   }
 
   /** The solver's own numbers; none until the figure is ready. */
@@ -107,9 +117,14 @@ export class Live<C extends Channels, M extends Disposable> {
   change(patch: Partial<StateOf<C>>): void {
     tell(this.#notice, '');
     const { moving = [], shown = [] } = this.#figure;
-    const keys = Object.keys(patch).filter((key) => patch[key] !== this.#state[key]);
-    this.#state = { ...this.#state, ...patch };
-    if (keys.some((key) => !moving.includes(key) && !shown.includes(key))) this.#unmade = true;
+    const keys = Object.keys(patch).filter((key) => patch[key] !== this.#visible[key]);
+    const light = keys.filter((key) => moving.includes(key) || shown.includes(key));
+    // While something else is made, what is dragged meanwhile is that which is still shown.
+    const waits = this.#work !== undefined && light.length === keys.length && this.#good;
+    const stays = waits ? light.filter((key) => this.#state[key] !== waits.state[key]) : [];
+    if (waits) this.#good = { ...waits, state: { ...waits.state, ...patch } };
+    this.#state = { ...this.#state, ...Object.fromEntries(Object.entries(patch).filter(([key]) => !stays.includes(key))) };
+    if (light.length < keys.length) this.#unmade = true;
     if (keys.some((key) => moving.includes(key))) this.#unmoved = true;
     this.#stir();
   }
@@ -141,7 +156,7 @@ export class Live<C extends Channels, M extends Disposable> {
     const tool = (name: string, act: () => void) =>
       h('button', { type: 'button', class: 'button small quiet', onclick: act }, name);
     const save = (kind: 'svg' | 'png') => () =>
-      void savePicture(this.#pictures, this.#figure.id, kind).catch((error: unknown) => this.#say(error));
+      void savePicture(this.#pictures, this.#figure.id, kind).catch((error: unknown) => this.#trouble.tell(error));
     const tools = h(
       'div',
       { class: 'tools' },
@@ -149,10 +164,10 @@ export class Live<C extends Channels, M extends Disposable> {
       tool('SVG', save('svg')),
       tool('PNG', save('png')),
     );
-    const controls = h('div', { class: 'controls' }, ...this.#controls.map(([, { element }]) => element), this.#facts);
+    const controls = h('div', { class: 'controls' }, ...this.#controls.map(({ element }) => element), this.#facts);
     this.element.append(
       this.#title,
-      this.#trouble,
+      this.#said,
       this.#notice,
       h(
         'div',
@@ -183,12 +198,12 @@ export class Live<C extends Channels, M extends Disposable> {
       this.#stir();
     } catch (error) {
       this.element.dataset.state = 'failed';
-      this.#say(error);
+      this.#trouble.tell(error);
     }
   }
 
   #kit(hb: HandlebodyRuntime): Kit<StateOf<C>> {
-    const state = () => this.#state;
+    const state = () => this.#visible;
     return {
       hb,
       get state() {
@@ -214,9 +229,16 @@ export class Live<C extends Channels, M extends Disposable> {
   async #run(): Promise<void> {
     this.#frame = 0;
     if (this.#unmade) await this.#make();
-    else if (this.#unmoved && this.#made && !this.#work) this.#attempt(() => this.#figure.move?.(this.#made as M, this.#state));
-    this.#unmoved = false;
+    if (this.#unmoved && this.#made) this.#move(this.#made);
     this.#draw();
+  }
+
+  #move(made: M): void {
+    this.#unmoved = false;
+    this.#attempt(() => {
+      if (this.#figure.move?.(made, this.#visible)) this.#unmoved = true;
+    });
+    if (this.#unmoved) this.#frame ||= requestAnimationFrame(() => void this.#run());
   }
 
   /** What was made stays until there is something new; a choice that comes to nothing goes back to what is shown. */
@@ -225,31 +247,47 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#work?.abort();
     const work = new AbortController();
     const [preset, state] = [this.#preset, this.#state];
-    const patience = setTimeout(() => this.#busyWith(work), PATIENCE);
+    const patience = setTimeout(() => {
+      this.#progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
+    }, PATIENCE);
     try {
       const making = this.#figure.make(this.#hb as HandlebodyRuntime, state, this.#worker(work.signal));
       if (making instanceof Promise) this.#work = work;
       const made = making instanceof Promise ? await making : making;
-      if (work.signal.aborted || this.#disposed) {
-        made.dispose?.();
-        return;
-      }
+      if (work.signal.aborted || this.#disposed) made.dispose?.();
+      if (this.#disposed) return;
+      work.signal.throwIfAborted();
       this.#made?.dispose?.();
       this.#made = made;
+      this.#unmoved = true;
       this.#good = { preset, state };
-      this.#say(undefined);
+      if (!this.#alone) this.#trouble.clear();
       this.element.dataset.state = 'ready';
     } catch (error) {
-      if (this.#disposed || (work.signal.aborted && this.#work !== work)) return;
-      if (!isAbort(error)) this.#say(error);
-      if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
-      else this.#fallBack(error);
-      this.#show();
+      // What was asked for meanwhile tells its own end.
+      if (this.#disposed || (this.#work && this.#work !== work)) return;
+      this.#failed(error, state);
     } finally {
       clearTimeout(patience);
-      if (this.#work === work) this.#work = undefined;
-      if (!this.#work) this.#busy.hidden = true;
+      if (this.#work === work) {
+        this.#work = undefined;
+        this.#progress.end();
+      }
+      this.#show();
     }
+  }
+
+  #failed(error: unknown, asked: StateOf<C>): void {
+    const again = () => this.change(asked);
+    if (!isAbort(error)) this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
+    if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
+    else if (isAbort(error) || error instanceof NotFetched) {
+      this.element.dataset.state = 'failed';
+      this.#trouble.tell(isAbort(error) ? cancelled() : error, () => {
+        this.#unmade = true;
+        this.#stir();
+      });
+    } else this.#fallBack(error);
   }
 
   /** A link may ask for what cannot be made: then the preset stands in, and says so. */
@@ -266,35 +304,29 @@ export class Live<C extends Channels, M extends Disposable> {
     tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message}`);
   }
 
-  #worker(signal: AbortSignal): Work {
+  #worker(signal: AbortSignal): Work<M> {
     return {
       signal,
       progress: (part, label) => {
-        const [words, bar] = this.#busy.children;
-        if (label && words) words.textContent = label;
-        if (bar instanceof HTMLProgressElement) {
-          if (part === undefined) bar.removeAttribute('value');
-          else bar.value = part;
-        }
+        if (!signal.aborted) this.#progress.set(part, label);
+      },
+      preview: (made) => {
+        if (!this.#made && !signal.aborted) this.#paint(made);
+      },
+      alone: () => {
+        this.#alone = true;
+        this.#trouble.tell(withoutWorker());
       },
     };
   }
 
-  #busyWith(work: AbortController): void {
-    const cancel = h(
-      'button',
-      { type: 'button', class: 'button small', onclick: () => work.abort(new DOMException('Cancelled.', 'AbortError')) },
-      'Cancel',
-    );
-    this.#busy.replaceChildren(h('span', {}, 'Working…'), h('progress', { max: 1, 'aria-label': 'Progress' }), cancel);
-    this.#busy.hidden = false;
+  #draw(): void {
+    if (this.#made) this.#paint(this.#made);
   }
 
-  #draw(): void {
-    const [made, good] = [this.#made, this.#good];
-    if (!made || !good) return;
+  #paint(made: M): void {
     this.#attempt(() => {
-      for (const panel of this.#panels) panel.draw(made, this.#state);
+      for (const panel of this.#panels) panel.draw(made, this.#visible);
     });
   }
 
@@ -310,8 +342,9 @@ export class Live<C extends Channels, M extends Disposable> {
   #rest(): void {
     const made = this.#made;
     if (made) {
-      for (const panel of this.#panels) panel.refine?.();
       this.#attempt(() => {
+        this.#figure.settle?.(made, this.#state);
+        for (const panel of this.#panels) panel.refine?.(made, this.#state);
         this.#told = this.#figure.told?.(made, this.#state) ?? [];
       });
     }
@@ -329,7 +362,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   /** The controls, the caption and the row of presets say what the state is. */
   #show(): void {
-    for (const [key, control] of this.#controls) control.show(this.#state[key]);
+    for (const control of this.#controls) control.show(this.#state);
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
     this.#title.textContent = title;
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
@@ -340,7 +373,7 @@ export class Live<C extends Channels, M extends Disposable> {
     try {
       work();
     } catch (error) {
-      this.#say(error);
+      this.#trouble.tell(error);
     }
   }
 
@@ -348,11 +381,6 @@ export class Live<C extends Channels, M extends Disposable> {
     const parts = left.map((part) => `“${shortened(part)}”`).join(', ');
     if (newer) tell(this.#notice, 'This link was made by a newer version of the page: the figure begins as its preset has it.');
     else tell(this.#notice, left.length > 0 ? `Of the link this could not be read and was left out: ${parts}.` : '');
-  }
-
-  #say(error: unknown): void {
-    const { message, remedy } = error === undefined ? { message: '', remedy: '' } : explain(error);
-    tell(this.#trouble, `${message} ${remedy}`.trim());
   }
 }
 
@@ -363,4 +391,16 @@ function tell(element: HTMLElement, text: string): void {
 
 function shortened(text: string): string {
   return text.length > 40 ? `${text.slice(0, 39)}…` : text;
+}
+
+function withoutWorker(): PageError {
+  return new PageError(
+    'worker-unavailable',
+    'No second thread could be started here: while the figure is prepared, the page does not answer.',
+    'Open the page in a window of its own if it takes too long.',
+  );
+}
+
+function cancelled(): PageError {
+  return new PageError('cancelled', 'The figure was not prepared.', 'Ask for it again when you want to see it.');
 }

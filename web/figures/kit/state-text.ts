@@ -21,6 +21,9 @@ export interface Preset<C extends Channels> {
   readonly state: Partial<StateOf<C>>;
 }
 
+/** What channels were called in texts without a version. */
+type Former<C extends Channels> = Readonly<Record<string, keyof C | 'from'>>;
+
 interface ReadState<C extends Channels> {
   readonly preset: Preset<C>;
   readonly state: StateOf<C>;
@@ -45,7 +48,7 @@ export function toText<C extends Channels>(channels: C, preset: Preset<C>, state
 }
 
 /** The state that a text says, as far as it can be read; the first preset where it says nothing. Never throws. */
-export function fromText<C extends Channels>(channels: C, presets: readonly Preset<C>[], text: string): ReadState<C> {
+export function fromText<C extends Channels>(channels: C, presets: readonly Preset<C>[], text: string, former: Former<C> = {}): ReadState<C> {
   const [first] = presets;
   if (!first) throw new Error('A figure needs a preset.');
   const parts = text.replace(/^#/, '').split('&').filter(Boolean);
@@ -56,7 +59,8 @@ export function fromText<C extends Channels>(channels: C, presets: readonly Pres
   const given: (readonly [part: string, key: string, text: string])[] = [];
   for (const part of parts) {
     const at = part.indexOf('=');
-    const [key, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
+    const [name, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
+    const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
     const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
     if (named) preset = named;
     else given.push([part, key, plain(value)]);

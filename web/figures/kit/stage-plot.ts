@@ -1,0 +1,165 @@
+import { Group, IcosahedronGeometry, InstancedMesh, Matrix4, MeshLambertMaterial } from 'three';
+import { cameraTools } from '../../stage/camera-tools.ts';
+import { sharedEasel } from '../../stage/easel.ts';
+import { View } from '../../stage/view.ts';
+import { HandleOverlay } from '../../three/handles.ts';
+import { h } from '../../ui/dom.ts';
+import { Note } from '../../ui/note.ts';
+import { ColorMap } from './color-map.ts';
+import type { Kit, OpenPanel, Panel } from './figure.ts';
+import { Surface, type Triangulation } from './surface.ts';
+
+/** Something to drag in space. */
+interface SpaceHandle {
+  readonly name: string;
+  readonly at: readonly [x: number, y: number, z: number];
+  move(x: number, y: number, z: number): void;
+  /** Home, or Delete. */
+  reset?(): void;
+}
+
+interface StagePlotOptions<M, S> {
+  /** What the view shows, for those who do not see it. */
+  readonly label: string;
+  /** What the colors stand for, from 0 to 1, where there are any. */
+  readonly legend?: string;
+  /** From where it is seen at first: degrees. */
+  view(state: S): { readonly azimuth: number; readonly elevation: number };
+  draw(stage: Stage, made: M, state: S, change: (patch: Partial<S>) => void): void;
+}
+
+/** A panel with a shape in space that is turned by dragging beside it, and handles on it. */
+export function stagePlot<M, S>(options: StagePlotOptions<M, S>): Panel<M, S> {
+  return { open: (kit) => new StagePlot(kit, options) };
+}
+
+class StagePlot<M, S> implements OpenPanel<M, S> {
+  readonly element: HTMLElement;
+  readonly #stage: Stage;
+  readonly #kit: Kit<S>;
+  readonly #options: StagePlotOptions<M, S>;
+
+  constructor(kit: Kit<S>, options: StagePlotOptions<M, S>) {
+    [this.#kit, this.#options] = [kit, options];
+    this.#stage = new Stage(options.label);
+    const { legend } = options;
+    this.element = h('div', { class: 'plane-view' }, this.#stage.element, ...(legend ? [ramp(legend)] : []));
+  }
+
+  draw(made: M, state: S): void {
+    this.#options.draw(this.#stage, made, state, this.#kit.change);
+    this.#stage.show(this.#options.view(state));
+  }
+
+  dispose(): void {
+    this.#stage.dispose();
+  }
+}
+
+/** What a figure in space draws with. */
+export class Stage {
+  readonly element: HTMLElement;
+  readonly #view: View;
+  readonly #overlay: HandleOverlay;
+  #group = new Group();
+  #surface: Surface | undefined;
+  #balls: InstancedMesh | undefined;
+  #handles: readonly SpaceHandle[] = [];
+  #names = '';
+  #framed: Surface | undefined;
+  readonly #matrix = new Matrix4();
+
+  constructor(label: string) {
+    const canvas = h('canvas');
+    const viewport = h('div', {
+      class: 'viewport',
+      role: 'application',
+      'aria-label': `${label}. Arrow keys turn the view, plus and minus zoom, Home shows all.`,
+    });
+    const container = h('div', { class: 'handles' });
+    const note = h('p', { class: 'note', role: 'status', hidden: true });
+    viewport.append(canvas);
+    this.#view = new View(canvas, viewport, sharedEasel());
+    this.element = h('div', { class: 'stage' }, viewport, container, cameraTools(this.#view, viewport), note);
+    const line = new Note(note);
+    this.#view.onInterrupted = (words) => line.show(words);
+    this.#overlay = new HandleOverlay({
+      camera: this.#view.camera,
+      container,
+      onMove: (i, { x, y, z }) => this.#handles[i]?.move(x, y, z),
+      onReset: (i) => this.#handles[i]?.reset?.(),
+    });
+    this.#view.onDrawn = () => this.#overlay.update();
+  }
+
+  /** The surface of a shape; another one comes into view whole. Write its positions, then it has moved. */
+  surface(rest: Triangulation, write: (surface: Surface) => void): this {
+    if (this.#surface?.rest !== rest) {
+      this.#group = new Group();
+      this.#balls = undefined;
+      this.#surface = new Surface(rest);
+      this.#group.add(this.#surface);
+    }
+    write(this.#surface);
+    this.#surface.moved();
+    return this;
+  }
+
+  /** Balls as a mapping leaves them: 18 numbers each, the images of the ends of three diameters at right angles. */
+  balls(ends: ArrayLike<number>): this {
+    const count = ends.length / 18;
+    if (this.#balls?.count !== count) {
+      if (this.#balls) this.#group.remove(this.#balls);
+      this.#balls?.geometry.dispose();
+      this.#balls = new InstancedMesh(new IcosahedronGeometry(1, 4), new MeshLambertMaterial({ color: 0x3f6fc4 }), count);
+      this.#balls.frustumCulled = false;
+      this.#group.add(this.#balls);
+    }
+    const at = (ball: number, point: number, axis: number) => ends[18 * ball + 3 * point + axis] as number;
+    const { elements } = this.#matrix.identity();
+    for (let ball = 0; ball < count; ball++) {
+      for (let axis = 0; axis < 3; axis++) {
+        let middle = 0;
+        for (let diameter = 0; diameter < 3; diameter++) {
+          const [one, other] = [at(ball, 2 * diameter, axis), at(ball, 2 * diameter + 1, axis)];
+          elements[4 * diameter + axis] = (other - one) / 2;
+          middle += (one + other) / 6;
+        }
+        elements[12 + axis] = middle;
+      }
+      this.#balls.setMatrixAt(ball, this.#matrix);
+    }
+    this.#balls.instanceMatrix.needsUpdate = true;
+    return this;
+  }
+
+  handles(handles: readonly SpaceHandle[]): this {
+    this.#handles = handles;
+    const names = handles.map(({ name }) => name).join('\n');
+    if (names !== this.#names) this.#overlay.set(handles.map(({ name, at }) => ({ name, position: at })));
+    this.#names = names;
+    handles.forEach(({ at }, i) => this.#overlay.setPosition(i, ...at));
+    return this;
+  }
+
+  show(from: { readonly azimuth: number; readonly elevation: number }): void {
+    if (this.#surface && this.#surface !== this.#framed) {
+      this.#framed = this.#surface;
+      this.#view.show(this.#group);
+      this.#view.frame(this.#surface, from, true);
+      this.#surface.geometry.computeBoundingSphere();
+      this.#overlay.step = (this.#surface.geometry.boundingSphere?.radius ?? 1) / 50;
+    } else this.#view.changed();
+  }
+
+  dispose(): void {
+    this.#overlay.dispose();
+    this.#view.dispose();
+  }
+}
+
+function ramp(words: string): HTMLElement {
+  const colors = h('div', {});
+  colors.style.background = new ColorMap('viridis', 0, 1).gradient;
+  return h('div', { class: 'ramp' }, h('span', {}, `${words}: 0`), colors, '1');
+}

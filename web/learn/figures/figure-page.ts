@@ -1,0 +1,83 @@
+import { Live, type Solvers } from '../../figures/kit/live.ts';
+import { FIGURES, type Listed } from '../../figures/list.ts';
+import { writeAddress } from '../../ui/address.ts';
+import { copyLink } from '../../ui/copy-link.ts';
+import { byId, h } from '../../ui/dom.ts';
+import { lazy } from '../../ui/lazy.ts';
+import { Trouble } from '../../ui/trouble.ts';
+
+interface Shown {
+  readonly element: HTMLElement;
+  state: string;
+  dispose(): void;
+}
+
+const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The figure “${title}”`)]));
+const solvers: Solvers = {
+  runtime: once(lazy(() => import('../../../wasm/ts/runtime.ts'), 'The solver')),
+  whole: once(lazy(() => import('../../../wasm/ts/index.ts'), 'The solver')),
+};
+
+/**
+ * A page of figures: one at a time, which its address names and says the state of, "#course-12&v1&fig-12"; or of one figure alone, whose
+ * state is all that the address says.
+ */
+export function figurePage(only?: string): void {
+  const main = byId('figure');
+  const trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
+  const line = new Trouble(trouble, () => byId('copy'));
+  let shown: { readonly listed: Listed; readonly live: Shown } | undefined;
+  let asked: Listed | undefined;
+  const addressOf = (listed: Listed, text: string) => (only ? text : `${listed.id}&${text}`);
+  main.replaceChildren(trouble);
+
+  const open = async () => {
+    const text = location.hash.slice(1);
+    const id = only ?? text.split('&')[0];
+    const listed = FIGURES.find((figure) => figure.id === id) ?? (only ? undefined : FIGURES[0]);
+    if (!listed) return;
+    const named = !only && id === listed.id;
+    const state = named ? text.slice(listed.id.length + 1) : text;
+    asked = listed;
+    for (const link of byId('figures').children)
+      link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
+    if (shown?.listed === listed) {
+      shown.live.state = state;
+      return;
+    }
+    // Nothing of the last one stands under the next one's name.
+    shown?.live.dispose();
+    shown = undefined;
+    line.clear();
+    main.ariaBusy = 'true';
+    try {
+      const figure = (await parts.get(listed.id)?.(addressOf(listed, state)))?.default;
+      if (!figure || asked !== listed) return;
+      const onChange = (changed: string, step: boolean) => writeAddress(addressOf(listed, changed), step);
+      shown = { listed, live: new Live(figure, { solvers, state, onChange }) };
+      main.append(shown.live.element);
+    } catch (error) {
+      if (asked === listed) line.tell(error, () => void open());
+    } finally {
+      if (asked === listed) main.ariaBusy = 'false';
+    }
+  };
+
+  if (only) byId('figures').remove();
+  else byId('figures').append(...FIGURES.map(({ id, title }) => h('a', { href: `#${id}`, class: 'button small' }, title)));
+  copyLink(byId('copy'), byId('live'), () => shown && writeAddress(addressOf(shown.listed, shown.live.state)));
+  addEventListener('hashchange', () => void open());
+  void open();
+}
+
+/** What a part of the program makes, made once a page; asked for again where it did not come. */
+function once<T>(part: (state: string) => Promise<{ load(): Promise<T> }>): () => Promise<T> {
+  let coming: Promise<T> | undefined;
+  return () => {
+    coming ??= part(location.hash.slice(1)).then(({ load }) => load());
+    coming.catch(() => {
+      coming = undefined;
+    });
+    return coming;
+  };
+}
