@@ -96,6 +96,7 @@ export class View {
 
   /** Puts the camera so that the object fills the view, seen from the given angles (degrees). */
   frame(object: Object3D, view: { azimuth: number; elevation: number }, grounded: boolean): void {
+    this.#measure();
     const box = new Box3().setFromObject(object);
     const sphere = box.getBoundingSphere(new Sphere());
     const [azimuth, elevation] = [(view.azimuth * Math.PI) / 180, (view.elevation * Math.PI) / 180];
@@ -211,17 +212,22 @@ export class View {
     this.onDrawn();
   }
 
-  /** Takes size, pixels and theme as the page has them now. */
+  /** Takes size, pixels and theme as the page has them now, and draws. */
   #layout(): void {
+    // Now, not in the next frame: the canvas has just lost what was on it.
+    if (this.#measure()) this.#paint();
+  }
+
+  /** Whether there is room for a picture. */
+  #measure(): boolean {
     const [width, height] = [this.#area.clientWidth, this.#area.clientHeight];
-    if (width === 0 || height === 0) return;
+    if (width === 0 || height === 0) return false;
     this.#area.style.setProperty('--shape', `${width} / ${height}`);
     this.light.dark = matchMedia('(prefers-color-scheme: dark)').matches;
     this.#size = { width, height, ratio: pixelRatio() };
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    // Now, not in the next frame: the canvas has just lost what was on it.
-    this.#paint();
+    return true;
   }
 }
 

@@ -52,6 +52,7 @@ export class Chart {
   readonly #names = svg('g', { class: 'names' });
   readonly #clip = svg('rect', { x: 0, y: 0 });
   readonly #inner = svg('g');
+  readonly #left = new AbortController();
   readonly #withNames: boolean;
   #size: readonly [number, number] = [0, 0];
   #nameless = false;
@@ -67,7 +68,13 @@ export class Chart {
     );
     this.#svg.append(this.#inner);
     this.element = h('div', { class: 'chart' }, this.#svg, this.area);
-    onScreenChange(this.element, () => this.measure() && onResize());
+    onScreenChange(this.element, () => this.measure() && onResize(), this.#left.signal);
+  }
+
+  /** Leaves no listener behind. */
+  dispose(): void {
+    this.#left.abort();
+    this.element.remove();
   }
 
   /** Takes the size that the page gives; whether it is another one. */

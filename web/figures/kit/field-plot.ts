@@ -67,6 +67,7 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
 
   dispose(): void {
     for (const panel of this.#panels) panel.dispose();
+    this.#chart.dispose();
   }
 
   get #points(): PointSet {

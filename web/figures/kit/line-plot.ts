@@ -38,7 +38,7 @@ export function linePlot<M, S>({ label, frame, draw }: LinePlotOptions<M, S>): P
           draw(plot, made, state, kit.change);
           plot.end();
         },
-        dispose: () => {},
+        dispose: () => plot.dispose(),
       };
     },
   };
@@ -59,6 +59,7 @@ class LinePlot<S> {
   #add: ((x: number, y: number) => void) | undefined;
   #curves: Curve[] = [];
   #paths: string[] = [];
+  #rules: [at: string, words: string][] = [];
   #xs: Float64Array = new Float64Array();
   #used = 0;
   #marks: readonly number[] = [];
@@ -96,6 +97,13 @@ class LinePlot<S> {
     return this;
   }
 
+  /** A line from below to above, and what it marks. */
+  rule(x: number, words: string): this {
+    const at = this.#chart.x(x).toFixed(1);
+    this.#rules.push([at, words]);
+    return this;
+  }
+
   /** The points of a channel: dragged, added by a double click, removed. */
   points(key: keyof S & string): this {
     const set = this.#kit.state[key] as PointSet;
@@ -116,7 +124,7 @@ class LinePlot<S> {
   }
 
   begin(): void {
-    [this.#curves, this.#paths, this.#used] = [[], [], 0];
+    [this.#curves, this.#paths, this.#rules, this.#used] = [[], [], [], 0];
     this.#chart.measure();
     this.through(this.#marks);
   }
@@ -129,10 +137,20 @@ class LinePlot<S> {
       path.setAttribute('d', d);
       path.dataset.slot = String(i % 8);
     });
+    this.#chart.over.replaceChildren(
+      ...this.#rules.flatMap(([at, words]) => [
+        svg('path', { class: 'rule', d: `M${at} 0V${this.#chart.height}` }),
+        svg('text', { x: at, y: 14, dx: 6 }, words),
+      ]),
+    );
     for (const [kind, group] of Object.entries(this.#groups)) {
       group.draw();
       for (let i = 0; i < this.#handles[kind as Group].length; i++) group.element(i)?.setAttribute('data-kind', kind);
     }
+  }
+
+  dispose(): void {
+    this.#chart.dispose();
   }
 
   #row(f: Evaluable): Float64Array {

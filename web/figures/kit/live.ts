@@ -195,6 +195,7 @@ export class Live<C extends Channels, M extends Disposable> {
       const kit: Kit<StateOf<C>> = this.#kit(this.#hb);
       this.#panels = Object.values(this.#figure.panels).map((panel) => panel.open(kit));
       this.#pictures.append(...this.#panels.map(({ element }) => element));
+      this.#pictures.dataset.count = String(this.#panels.length);
       this.#stir();
     } catch (error) {
       this.element.dataset.state = 'failed';
@@ -343,7 +344,10 @@ export class Live<C extends Channels, M extends Disposable> {
     const made = this.#made;
     if (made) {
       this.#attempt(() => {
-        this.#figure.settle?.(made, this.#state);
+        if (this.#figure.settle) {
+          this.#figure.settle(made, this.#state);
+          this.#paint(made);
+        }
         for (const panel of this.#panels) panel.refine?.(made, this.#state);
         this.#told = this.#figure.told?.(made, this.#state) ?? [];
       });

@@ -1,4 +1,14 @@
-import { Group, IcosahedronGeometry, InstancedMesh, Matrix4, MeshLambertMaterial } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  IcosahedronGeometry,
+  InstancedMesh,
+  Matrix4,
+  MeshLambertMaterial,
+  Points,
+  PointsMaterial,
+} from 'three';
 import { cameraTools } from '../../stage/camera-tools.ts';
 import { sharedEasel } from '../../stage/easel.ts';
 import { View } from '../../stage/view.ts';
@@ -21,6 +31,8 @@ interface SpaceHandle {
 interface StagePlotOptions<M, S> {
   /** What the view shows, for those who do not see it. */
   readonly label: string;
+  /** Above it, where several are shown. */
+  readonly title?: string;
   /** What the colors stand for, from 0 to 1, where there are any. */
   readonly legend?: string;
   /** From where it is seen at first: degrees. */
@@ -42,8 +54,14 @@ class StagePlot<M, S> implements OpenPanel<M, S> {
   constructor(kit: Kit<S>, options: StagePlotOptions<M, S>) {
     [this.#kit, this.#options] = [kit, options];
     this.#stage = new Stage(options.label);
-    const { legend } = options;
-    this.element = h('div', { class: 'plane-view' }, this.#stage.element, ...(legend ? [ramp(legend)] : []));
+    const { title, legend } = options;
+    this.element = h(
+      'div',
+      { class: 'stage-panel' },
+      ...(title ? [h('h3', { class: 'chart-title' }, title)] : []),
+      this.#stage.element,
+      ...(legend ? [ramp(legend)] : []),
+    );
   }
 
   draw(made: M, state: S): void {
@@ -64,6 +82,7 @@ export class Stage {
   #group = new Group();
   #surface: Surface | undefined;
   #balls: InstancedMesh | undefined;
+  #dots: Points | undefined;
   #handles: readonly SpaceHandle[] = [];
   #names = '';
   #framed: Surface | undefined;
@@ -96,7 +115,7 @@ export class Stage {
   surface(rest: Triangulation, write: (surface: Surface) => void): this {
     if (this.#surface?.rest !== rest) {
       this.#group = new Group();
-      this.#balls = undefined;
+      this.#balls = this.#dots = undefined;
       this.#surface = new Surface(rest);
       this.#group.add(this.#surface);
     }
@@ -130,6 +149,26 @@ export class Stage {
       this.#balls.setMatrixAt(ball, this.#matrix);
     }
     this.#balls.instanceMatrix.needsUpdate = true;
+    return this;
+  }
+
+  /** Dots on vertices of the surface. */
+  dots(vertices: ArrayLike<number>): this {
+    const positions = this.#surface?.positions;
+    if (!positions) return this;
+    if (!this.#dots) {
+      const place = new BufferAttribute(new Float32Array(3 * vertices.length), 3);
+      const material = new PointsMaterial({ color: 0x1f5fc4, size: 7, sizeAttenuation: false });
+      this.#dots = new Points(new BufferGeometry().setAttribute('position', place), material);
+      this.#dots.frustumCulled = false;
+      this.#group.add(this.#dots);
+    }
+    const place = this.#dots.geometry.getAttribute('position');
+    for (let i = 0; i < place.count; i++) {
+      const v = 3 * (vertices[i] as number);
+      place.setXYZ(i, positions[v] as number, positions[v + 1] as number, positions[v + 2] as number);
+    }
+    place.needsUpdate = true;
     return this;
   }
 

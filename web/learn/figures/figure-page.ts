@@ -23,7 +23,7 @@ const solvers: Solvers = {
  * state is all that the address says.
  */
 export function figurePage(only?: string): void {
-  const main = byId('figure');
+  const [main, links] = [byId('figure'), byId('figures')];
   const trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
   const line = new Trouble(trouble, () => byId('copy'));
   let shown: { readonly listed: Listed; readonly live: Shown } | undefined;
@@ -39,7 +39,7 @@ export function figurePage(only?: string): void {
     const named = !only && id === listed.id;
     const state = named ? text.slice(listed.id.length + 1) : text;
     asked = listed;
-    for (const link of byId('figures').children)
+    for (const link of links.children)
       link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
     if (shown?.listed === listed) {
       shown.live.state = state;
@@ -63,8 +63,8 @@ export function figurePage(only?: string): void {
     }
   };
 
-  if (only) byId('figures').remove();
-  else byId('figures').append(...FIGURES.map(({ id, title }) => h('a', { href: `#${id}`, class: 'button small' }, title)));
+  if (only) links.remove();
+  else links.append(...FIGURES.map(({ id, title }) => h('a', { href: `#${id}`, class: 'button small' }, title)));
   copyLink(byId('copy'), byId('live'), () => shown && writeAddress(addressOf(shown.listed, shown.live.state)));
   addEventListener('hashchange', () => void open());
   void open();

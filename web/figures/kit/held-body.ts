@@ -1,0 +1,85 @@
+import type { HandlebodyRuntime, Irbf, IrbfOptions, SolveReport } from '../../../wasm/ts/runtime.ts';
+import type { BodyData } from '../../../wasm/ts/types.ts';
+
+/** Iterations a frame: enough to follow a hand. */
+const A_FRAME = 4;
+/** From rest, for what is only looked at when it has settled. */
+const TO_THE_END = { maxIterations: 300, tolerance: 1e-7 };
+
+/** A baked body, its interior distances at work, held by handles at points inside. */
+export class HeldBody {
+  readonly irbf: Irbf;
+  /** Of the mesh that was baked, as they are now. */
+  readonly positions: Float32Array;
+  /** Ends of three diameters of each sphere, as they are now: 18 numbers a sphere. */
+  readonly ends: Float64Array;
+  readonly #restEnds: Float64Array;
+  readonly #radii: readonly number[];
+
+  /** `handles`: three numbers each, model units. */
+  constructor(hb: HandlebodyRuntime, body: BodyData, handles: readonly number[], options: IrbfOptions) {
+    const { spheres, normalization } = body;
+    this.irbf = hb.irbf(body, options);
+    this.irbf.setHandles(rows(handles).map((at) => ({ at })));
+    this.positions = new Float32Array(body.mesh.positions.length);
+    const count = spheres.length / 4;
+    this.#radii = Array.from({ length: count }, (_, b) => (spheres[4 * b + 3] ?? 0) * normalization.diagonal);
+    this.#restEnds = Float64Array.from({ length: 18 * count }, (_, i) => {
+      const [b, end, axis] = [Math.floor(i / 18), Math.floor((i % 18) / 3), i % 3];
+      const center = (spheres[4 * b + axis] ?? 0) * normalization.diagonal + (normalization.center[axis] ?? 0);
+      return Math.floor(end / 2) === axis ? center + (end % 2 === 0 ? -1 : 1) * (this.#radii[b] ?? 0) : center;
+    });
+    this.ends = new Float64Array(this.#restEnds.length);
+  }
+
+  /** Where the handles are to go. */
+  pull(places: readonly number[]): void {
+    for (let i = 0; i < places.length / 3; i++)
+      for (let axis = 0; axis < 3; axis++) this.irbf.targets[10 * i + axis] = places[3 * i + axis] as number;
+  }
+
+  /** A few iterations, and the shape after them. Whether it still moves. */
+  follow(): boolean {
+    const { converged } = this.irbf.solve({ maxIterations: A_FRAME });
+    this.#take();
+    return !converged;
+  }
+
+  /** Until nothing moves any more. */
+  settle(): SolveReport {
+    const report = this.irbf.solve(TO_THE_END);
+    this.#take();
+    return report;
+  }
+
+  /** How far the spheres are from rigid: the root mean square of ½ |FᵀF − I|, F a sphere's linear part. */
+  get strain(): number {
+    let sum = 0;
+    this.#radii.forEach((radius, b) => {
+      const column = (axis: number, k: number) =>
+        ((this.ends[18 * b + 6 * axis + 3 + k] as number) - (this.ends[18 * b + 6 * axis + k] as number)) / (2 * radius);
+      for (let i = 0; i < 3; i++) {
+        for (let j = 0; j < 3; j++) {
+          let product = i === j ? -1 : 0;
+          for (let k = 0; k < 3; k++) product += column(i, k) * column(j, k);
+          sum += (product / 2) ** 2;
+        }
+      }
+    });
+    return Math.sqrt(sum / this.#radii.length);
+  }
+
+  dispose(): void {
+    this.irbf.dispose();
+  }
+
+  #take(): void {
+    this.irbf.deform(this.positions);
+    this.irbf.evaluate(this.#restEnds, this.ends);
+  }
+}
+
+/** n×3 numbers as n points. */
+export function rows(numbers: readonly number[]): [number, number, number][] {
+  return Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as [number, number, number]);
+}
