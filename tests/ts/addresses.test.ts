@@ -3,6 +3,8 @@ import { describe, expect, it } from 'vitest';
 import { load } from '../../wasm/ts/index.ts';
 import { axisMarks } from '../../web/figures/kit/scale.ts';
 import { roundRange } from '../../web/figures/kit/section.ts';
+import { fromText, toText } from '../../web/figures/kit/state-text.ts';
+import solidFigure from '../../web/figures/skinning/solid.ts';
 import * as gingerbread from '../../web/learn/gingerbread/address.ts';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import * as playground from '../../web/learn/interpolation/address.ts';
@@ -10,8 +12,7 @@ import { MOST_POINTS } from '../../web/learn/interpolation/experiment.ts';
 import { Fit } from '../../web/learn/interpolation/fit.ts';
 import { dataOf } from '../../web/learn/interpolation/interpolants.ts';
 import { PRESETS } from '../../web/learn/interpolation/presets.ts';
-import * as solid from '../../web/learn/solid-weights/address.ts';
-import { leftOut } from '../../web/ui/address.ts';
+import { leftOut, quoted } from '../../web/ui/address.ts';
 import { readable } from '../../web/ui/dom.ts';
 import { explain } from '../../web/ui/explain.ts';
 
@@ -23,6 +24,16 @@ interface Page {
   /** What its addresses are made of. */
   readonly words: readonly string[];
 }
+
+const { parameters, presets, former = {} } = solidFigure;
+const solid = {
+  fromAddress: (hash: string, left: string[] = []) => {
+    const read = fromText(parameters, presets, hash, former);
+    left.push(...read.left.map(quoted));
+    return read;
+  },
+  toAddress: ({ preset, state }: ReturnType<typeof fromText<typeof parameters>>): string => toText(parameters, preset, state),
+};
 
 const PAGES: Record<string, Page> = {
   playground: {
@@ -45,7 +56,7 @@ const PAGES: Record<string, Page> = {
   solid: {
     read: solid.fromAddress,
     write: solid.toAddress,
-    words: ['bar', 'dog', 'solid=', 'm=', 'blend=', 'bounded', 'harmonic', 'rigid', 'linear'],
+    words: ['bar', 'dog', 'solid=', 'm=', 'blend=', 'bounded', 'harmonic', 'rigid', 'linear', 'v1&', 'from=', 'poses=', '1:', '0,0,0,'],
   },
 };
 
@@ -142,8 +153,9 @@ describe('what an address says too much', () => {
       '“q:1”',
       '“v=9”',
     ]);
-    expect(told(solid.fromAddress, '#solid=cat&blend=rigid&x')).toEqual(['“x”', '“solid=cat”']);
-    expect(solid.fromAddress('#solid=cat&blend=rigid')).toEqual({ solid: 'bar', method: 'biharmonic', blend: 'rigid' });
+    expect(told(solid.fromAddress, '#solid=cat&blend=rigid&x')).toEqual(['“solid=cat”', '“x”']);
+    expect(solid.fromAddress('#solid=cat&blend=rigid').state).toMatchObject({ solid: 'bar', method: 'biharmonic', blend: 'rigid' });
+    expect(solid.fromAddress('#solid=dog&m=bounded').state).toMatchObject({ solid: 'dog', method: 'bounded', handle: 0 });
   });
 
   it('is counted where it is much', () => {

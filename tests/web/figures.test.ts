@@ -1,9 +1,10 @@
 import { readFileSync } from 'node:fs';
-import type { Browser } from 'playwright-core';
+import type { Browser, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
 import { FIGURES } from '../../web/figures/list.ts';
-import { openFigure, settled, told } from './support/figure.ts';
+import { openFigure, settled, told, toldNumber } from './support/figure.ts';
+import { listen } from './support/listen.ts';
 import { cramped, violations } from './support/manners.ts';
 import { launch, PHONE, soon } from './support/studio.ts';
 
@@ -13,20 +14,28 @@ beforeAll(async () => {
 });
 afterAll(() => browser.close());
 
-const LOOKS = [
-  ['desktop, light', { colorScheme: 'light' as const }],
-  ['desktop, dark', { colorScheme: 'dark' as const }],
-  ['phone, light', { ...PHONE, colorScheme: 'light' as const }],
-  ['phone, dark', { ...PHONE, colorScheme: 'dark' as const }],
-] as const;
+const WIDE = { viewport: { width: 1280, height: 800 } };
+
+/** One page for each size, which shows one figure after another. */
+const sizes = { desktop: undefined as Page | undefined, phone: undefined as Page | undefined };
 
 describe.each(FIGURES)('$id', ({ id, load }) => {
-  it.each(LOOKS)('%s: silent, axe finds nothing, targets are large enough, nothing overflows', async (_, look) => {
-    const { page, said } = await openFigure(browser, id, look);
-    expect(await violations(page)).toEqual([]);
-    expect(await cramped(page)).toEqual([]);
-    expect(said).toEqual([]);
-  });
+  it.each(['desktop', 'phone'] as const)(
+    '%s: silent, axe finds nothing, targets are large enough, nothing overflows',
+    async (size) => {
+      const page = sizes[size] ?? (await browser.newPage({ ...(size === 'phone' ? PHONE : WIDE), reducedMotion: 'reduce' }));
+      sizes[size] = page;
+      const said = listen(page);
+      await page.goto(`${inject('site')}learn/figures/#${id}`, { waitUntil: 'commit' });
+      await page.waitForSelector(`[data-figure="${id}"][data-state=ready][data-rest=yes]`, { timeout: 60_000 });
+      for (const colorScheme of ['light', 'dark'] as const) {
+        await page.emulateMedia({ colorScheme });
+        expect(await violations(page)).toEqual([]);
+      }
+      expect(await cramped(page)).toEqual([]);
+      expect(said).toEqual([]);
+    },
+  );
 
   it('every preset opens by its button and by its link, says what to look at, and back goes back', async () => {
     const { presets } = (await load()).default;
@@ -36,7 +45,7 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
       await settled(page);
       await soon(() => new URL(page.url()).hash).toBe(`#${id}&v1&${preset.id}`);
       expect(await page.locator('.caption').textContent()).toContain(preset.look ?? '');
-      expect(await page.locator('.trouble').isVisible()).toBe(false);
+      expect(await page.locator('.figure .trouble').isVisible()).toBe(false);
     }
     if (presets.length > 1) {
       await page.goBack();
@@ -69,7 +78,7 @@ it('a picture is saved as SVG and as PNG, as it looks', async () => {
   expect(drawing.match(/<circle/g)).toHaveLength(14);
   expect(drawing).not.toMatch(/var\(|class="chart/);
   const picture = PNG.sync.read(await saved('PNG'));
-  const box = await page.locator('.chart svg').boundingBox();
+  const box = await page.locator('.panels').boundingBox();
   expect(picture.width).toBe(Math.round(2 * (box?.width ?? 0)));
   const colors = new Set<number>();
   for (let i = 0; i < picture.data.length; i += 4) colors.add(picture.data.readUInt32BE(i));
@@ -78,9 +87,20 @@ it('a picture is saved as SVG and as PNG, as it looks', async () => {
 
 it('a link to what cannot be made opens the preset, and says so', async () => {
   // Two values at one place.
-  const { page } = await openFigure(browser, 'course-12&v1&points=1,2;1,3;4,5');
+  const link = 'course-12&v1&points=1,2;1,3;4,5';
+  const { page } = await openFigure(browser, link, { locale: 'en' });
   expect(await page.locator('.notice').textContent()).toMatch(/so the preset is shown\. Point 1 is at the same place as point 0/);
   expect(await page.locator('.point[data-kind=points]').count()).toBe(7);
+  // Where something is shown already, that stays.
+  await page.getByRole('button', { name: 'Wide kernels' }).click();
+  await settled(page);
+  await page.evaluate((hash) => {
+    location.hash = hash;
+  }, link);
+  await soon(() => page.locator('.figure .trouble:visible').textContent()).toMatch(/^Point 1 is at the same place as point 0/);
+  expect(await page.getByRole('button', { name: 'Wide kernels' }).getAttribute('aria-pressed')).toBe('true');
+  await settled(page);
+  expect(new URL(page.url()).hash).toBe('#course-12&v1&wide');
 });
 
 it.each([
@@ -165,5 +185,70 @@ describe('course-20', () => {
     await settled(page);
     expect(before.equals(await colors())).toBe(false);
     expect(await page.locator('.color-scale').isVisible()).toBe(false);
+  });
+});
+
+describe('irbf-9', () => {
+  it('the jump near the farthest sphere falls as λ grows, the misfit of the spheres grows; the automatic λ lies between', async () => {
+    const { page, said } = await openFigure(browser, 'irbf-9&v1&small');
+    const slider = page.locator('.control', { hasText: 'λ' }).locator('input');
+    const measured = async () => [
+      await toldNumber(page, 'jump near the farthest sphere'),
+      await toldNumber(page, 'misfit of the spheres'),
+    ];
+    const [jumpSmall = 0, misfitSmall = 0] = await measured();
+    expect(jumpSmall).toBeGreaterThan(2);
+    await slider.fill('400');
+    await settled(page);
+    const [jumpLarge = 0, misfitLarge = 0] = await measured();
+    expect(jumpLarge).toBeLessThan(1);
+    expect(misfitLarge).toBeGreaterThan(0.1);
+    await page.getByLabel('choose it for me').check();
+    await settled(page);
+    const [jump = 0, misfit = 0] = await measured();
+    expect(jump).toBeGreaterThan(jumpLarge);
+    expect(jump).toBeLessThan(jumpSmall / 2);
+    expect(misfit).toBeGreaterThan(misfitSmall);
+    expect(misfit).toBeLessThan(misfitLarge / 10);
+    expect((await told(page)).λ).toBe((await told(page))['automatic λ']);
+    expect(await page.locator('.chart text', { hasText: 'automatic λ' }).count()).toBe(1);
+    expect(said).toEqual([]);
+  });
+
+  it('a handle is dragged and moved by keys, and Escape takes it back', async () => {
+    const { page, said } = await openFigure(browser, 'irbf-9');
+    const before = await told(page);
+    const handle = page.getByRole('button', { name: 'Right end' });
+    await handle.focus();
+    await page.keyboard.press('PageUp');
+    await settled(page);
+    expect(await told(page)).not.toEqual(before);
+    expect(new URL(page.url()).hash).toContain('places=');
+    await page.keyboard.press('Escape');
+    await settled(page);
+    expect(await toldNumber(page, 'misfit of the spheres')).toBeCloseTo(Number(before['misfit of the spheres']), 3);
+    expect(said).toEqual([]);
+  });
+});
+
+describe('irbf-20', () => {
+  it('the least energy grows as centers fall; at rest there is none', async () => {
+    const { page, said } = await openFigure(browser, 'irbf-20');
+    const energies = async () => Object.values(await told(page)).map(Number);
+    const bent = await energies();
+    expect(bent).toHaveLength(4);
+    expect(bent).toEqual(bent.toSorted((a, b) => a - b));
+    expect((bent[3] ?? 0) / (bent[0] ?? 1)).toBeGreaterThan(1.5);
+    // A handle of one panel is that of all.
+    await page.locator('.stage').nth(2).getByRole('button', { name: 'Right end', exact: true }).focus();
+    await page.keyboard.press('PageUp');
+    await settled(page);
+    const pulled = await energies();
+    expect(pulled.every((energy, i) => energy !== bent[i])).toBe(true);
+    expect(pulled).toEqual(pulled.toSorted((a, b) => a - b));
+    await page.getByRole('button', { name: 'At rest' }).click();
+    await settled(page);
+    for (const energy of await energies()) expect(energy).toBeLessThan(1e-3);
+    expect(said).toEqual([]);
   });
 });

@@ -5,6 +5,7 @@ import type { Browser, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { createServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
+import { FIGURES } from '../../web/figures/list.ts';
 import { listen } from './support/listen.ts';
 import { cramped } from './support/manners.ts';
 import { fingers, frames, launch, PHONE, soon } from './support/studio.ts';
@@ -92,16 +93,37 @@ const PAGES: readonly Kinds[] = [
     plots: [['.picture', '.handle, .knob, .legend-strip']],
     card: true,
   },
-  {
-    address: 'learn/solid-weights/#bar',
-    ready: '[data-state=ready]',
-    picture: '#canvas',
-    colors: [['.scale div', 8]],
-    plots: [['.scale', 'div']],
-    card: true,
-  },
   { address: '', ready: 'main', colors: [], plots: [] },
 ];
+
+/** What applies to a figure follows from the panels that it has. */
+async function kindsOf(page: Page, { address, ready }: Kinds): Promise<Kinds> {
+  const has = async (selector: string) => (await page.locator(selector).count()) > 0;
+  const [space, map, handles] = [await has('.panels .stage'), await has('.panels .field'), await has('.panels .handle')];
+  const handle = `.panels > :first-child ${handles ? '.handle' : '.point:not([aria-hidden])'}`;
+  return {
+    address,
+    ready,
+    picture: space ? '.panels .stage canvas' : map ? '.panels .field canvas' : '.panels .chart svg',
+    ...((await has(handle)) && { handle, choose: focus(handle) }),
+    colors: [...((await has('.ramp')) ? [['.ramp div', 8] as const] : []), ...(map ? [['.scale-strip', 8] as const] : [])],
+    plots: [
+      ...((await has('.panels .chart')) ? [['.panels .chart', '.point, text, path'] as const] : []),
+      ...(handles ? [['.panels .stage', '.handle'] as const] : []),
+      ...((await has('.ramp')) ? [['.ramp', 'div'] as const] : []),
+    ],
+    ...(space && { card: true, shadow: true }),
+  };
+}
+
+const FIGURE_ROWS: readonly Kinds[] = FIGURES.map(({ id }) => ({
+  address: `learn/figures/#${id}`,
+  ready: `[data-figure="${id}"][data-state=ready][data-rest=yes]`,
+  colors: [],
+  plots: [],
+}));
+/** Shows one figure after another. */
+let figuresPage: { page: Page; said: string[] } | undefined;
 
 let browser: Browser;
 beforeAll(async () => {
@@ -196,31 +218,45 @@ function watchPaper([box, handles]: readonly [box: string, handles: string]): vo
         .flatMap((r) => [(r.x + r.width / 2 - x) / width, (r.y + r.height / 2 - y) / height]),
     };
   };
-  const kept = { measure, printed: measure() };
+  const stop = new AbortController();
+  const kept = { measure, printed: measure(), stop: () => stop.abort() };
   Object.assign(globalThis, { paper: kept });
-  matchMedia('print').addEventListener('change', ({ matches }) => {
-    if (matches) kept.printed = measure();
+  const { signal } = stop;
+  matchMedia('print').addEventListener('change', ({ matches }) => matches && Object.assign(kept, { printed: measure() }), {
+    signal,
   });
 }
 
 type Measured = { shape: number; copied: boolean; at: number[] };
-type Paper = { paper: { measure: () => Measured; printed: Measured } };
+type Paper = { paper: { measure: () => Measured; printed: Measured; stop: () => void } };
 
-describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as const))('%s', (_, kinds) => {
-  const { picture, handle, choose, colors, plots, card, shadow } = kinds;
+describe.each([...PAGES, ...FIGURE_ROWS].map((row) => [row.address || 'the front page', row] as const))('%s', (_, row) => {
+  let kinds = row;
   let page: Page;
   let said: string[];
   beforeAll(async () => {
-    ({ page, said } = await open(kinds));
+    const figure = FIGURE_ROWS.includes(row);
+    if (figure && figuresPage) {
+      ({ page, said } = figuresPage);
+      said.length = 0;
+      await page.goto(inject('site') + row.address, { waitUntil: 'commit' });
+      await page.waitForSelector(row.ready, { timeout: 60_000 });
+    } else ({ page, said } = await open(row));
+    if (!figure) return;
+    figuresPage = { page, said };
+    kinds = await kindsOf(page, row);
   });
-  afterAll(() => page.close());
+  afterAll(async () => {
+    if (!FIGURE_ROWS.includes(row) || row === FIGURE_ROWS.at(-1)) await page.close();
+  });
 
   it('is followed to a screen with other pixels, and back', async ({ skip }) => {
+    const { picture } = kinds;
     if (!picture || picture.endsWith('svg')) return skip();
     const cdp = await page.context().newCDPSession(page);
     for (const ratio of [2, 1]) {
       await cdp.send('Emulation.setDeviceMetricsOverride', { ...USUAL.viewport, deviceScaleFactor: ratio, mobile: false });
-      await page.evaluate(() => document.querySelector<HTMLElement>('.handle, .point, #viewport')?.focus());
+      await page.evaluate(() => document.querySelector<HTMLElement>('.handle, .point, .viewport')?.focus());
       await page.keyboard.press('ArrowLeft');
       const canvas = page.locator(picture).first();
       await soon(() => canvas.evaluate((e) => (e as HTMLCanvasElement).width / e.clientWidth)).toBeCloseTo(ratio, 1);
@@ -230,6 +266,7 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
   });
 
   it('is printed on any paper with its handles where they belong', async () => {
+    const { picture, handle, card } = kinds;
     await page.evaluate(watchPaper, [picture ?? 'main', handle ?? '.none'] as const);
     const measured = () => page.evaluate(() => (globalThis as unknown as Paper).paper.measure());
     const before = await measured();
@@ -242,10 +279,12 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
       // And it is as before on the screen.
       expect(await measured()).toEqual(before);
     }
+    await page.evaluate(() => (globalThis as unknown as Paper).paper.stop());
     expect(said).toEqual([]);
   });
 
   it.each(['light', 'dark'] as const)('keeps chosen, bars, tracks and scales apart in forced colors, %s', async (colorScheme) => {
+    const { colors, choose, handle } = kinds;
     await page.emulateMedia({ forcedColors: 'active', colorScheme });
     await frames(page, 4);
     for (const [selector, least] of colors)
@@ -272,7 +311,7 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
         document.documentElement.dir = text;
       }, dir);
       await frames(page, 4);
-      return Promise.all(plots.map(([plot, part]) => places(page, plot, part)));
+      return Promise.all(kinds.plots.map(([plot, part]) => places(page, plot, part)));
     };
     const before = await read('ltr');
     const after = await read('rtl');
@@ -324,16 +363,19 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
   });
 
   it('follows the theme with its light', async ({ skip }) => {
-    if (!shadow) return skip();
+    if (!kinds.shadow) return skip();
     /** How dark the shadow on the ground is: black, and lets what is below through. */
     const shade = () =>
       page.evaluate(() => {
         dispatchEvent(new Event('beforeprint'));
         const data = (globalThis as unknown as Losable).pixelsOnPaper();
         dispatchEvent(new Event('afterprint'));
-        let most = 0;
+        const seen = new Uint32Array(256);
         for (let i = 0; i < data.length; i += 4)
-          if ((data[i] ?? 255) < 8 && (data[i + 3] ?? 0) < 200) most = Math.max(most, data[i + 3] ?? 0);
+          if ((data[i] ?? 255) < 8) seen[data[i + 3] ?? 0] = (seen[data[i + 3] ?? 0] ?? 0) + 1;
+        // Of most of it: rims of the shape are dark and half transparent, too.
+        const alphas = [...seen.keys()].filter((alpha) => alpha > 15 && alpha < 200);
+        const most = alphas.reduce((best, alpha) => ((seen[alpha] ?? 0) > (seen[best] ?? 0) ? alpha : best), 15);
         return most;
       });
     await page.emulateMedia({ colorScheme: 'light' });
@@ -346,7 +388,7 @@ describe.each(PAGES.map((kinds) => [kinds.address || 'the front page', kinds] as
   });
 
   it('says that the graphics card was interrupted, and comes back', async ({ skip }) => {
-    if (!card) return skip();
+    if (!kinds.card) return skip();
     await interrupt(page, kinds);
   });
 });
@@ -398,11 +440,12 @@ it('surfaces say that the graphics card was interrupted, keep the last picture, 
 
 async function interrupt(page: Page, { picture = '' }: Kinds): Promise<void> {
   const lose = (lost: boolean) => page.evaluate((is) => (globalThis as unknown as Losable).loseContexts(is), lost);
-  const words = page.locator('#note:not([hidden]), .plane-view > p:not([hidden])');
+  const words = page.locator('#note:not([hidden]), .note:not([hidden]), .plane-view > p:not([hidden])');
   await lose(true);
-  await soon(() => words.allTextContents()).toEqual([expect.stringContaining('interrupted')]);
+  // Each view of a page says so.
+  await soon(async () => [...new Set(await words.allTextContents())]).toEqual([expect.stringContaining('interrupted')]);
   // What can still be done is.
-  await page.evaluate(() => document.querySelector<HTMLElement>('.handle, .point, #viewport')?.focus());
+  await page.evaluate(() => document.querySelector<HTMLElement>('.handle, .point, .viewport')?.focus());
   await page.keyboard.press('ArrowUp');
   await frames(page, 4);
   if (picture === '.field canvas') expect(colorsIn(await shot(page, picture))).toBeGreaterThan(20);

@@ -67,7 +67,11 @@ export class View {
 
     onInterruption(
       easel.source,
-      (words) => this.onInterrupted(words),
+      (words) => {
+        // Made anew afterwards: what was made before belongs to no card any more, and can be given back only now.
+        if (words) this.#forget();
+        this.onInterrupted(words);
+      },
       () => this.changed(),
       signal,
     );
@@ -168,9 +172,14 @@ export class View {
     cancelAnimationFrame(this.#frame);
     this.#steps.clear();
     this.controls.dispose();
-    if (this.#object) disposeObject(this.#object);
-    this.light.dispose();
+    this.#forget();
     this.#easel.leave();
+  }
+
+  /** Gives back what the graphics card holds; drawing makes it again. */
+  #forget(): void {
+    disposeObject(this.#scene);
+    this.light.dispose();
   }
 
   /** Calls `move` with the parts of a movement that add up to 1. */

@@ -13,7 +13,7 @@ export class Trouble {
   }
 
   tell(error: unknown, again?: () => void): void {
-    const { message, remedy } = explain(error);
+    const { message, remedy, detail = '' } = explain(error);
     const act = (then?: () => void) => () => {
       this.clear();
       then?.();
@@ -21,6 +21,7 @@ export class Trouble {
     const retry = again && h('button', { type: 'button', class: 'button small', onclick: act(again) }, 'Try again');
     const dismiss = h('button', { type: 'button', class: 'dismiss', 'aria-label': 'Dismiss this message', onclick: act() }, '×');
     this.#area.replaceChildren(h('span', {}, `${message} ${remedy}`), ...(retry ? [retry] : []), dismiss);
+    this.#area.dataset.code = detail;
     this.#area.hidden = false;
   }
 

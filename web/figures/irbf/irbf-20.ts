@@ -14,8 +14,8 @@ const NAMES = ['Left end', 'Left end, above', 'Left end, in front', 'Right end',
 const BENT = [-4.8, 0, 0, -4.8, 0.8, 0, -4.8, 0, 0.8, 3, 3.6, 0, 2.4, 4, 0];
 
 const parameters = {
-  width: range('Width h, parts of the bar’s length', { from: 0.05, to: 1, value: 0.24, scale: 'log' }),
-  smoothness: range('λ', { from: 1e-8, to: 1e-2, value: 1e-5, scale: 'log' }),
+  width: range('Width h, parts of the bar’s length', { from: 0.05, to: 1, value: 0.18, scale: 'log' }),
+  smoothness: range('λ', { from: 1e-8, to: 1e-2, value: 1e-6, scale: 'log' }),
   places: inSpace(BENT),
 };
 type State = StateOf<typeof parameters>;
@@ -71,7 +71,12 @@ export default define({
       attempt: 'Drag a handle in any of the four.',
       state: {},
     },
-    { id: 'wide', name: 'A wide kernel', look: 'Wide kernels are alike: a few centers do nearly as well.', state: { width: 0.6, smoothness: 1e-8 } },
+    {
+      id: 'wide',
+      name: 'A wide kernel',
+      look: 'Wide kernels are alike: a few centers do nearly as well.',
+      state: { width: 0.6, smoothness: 1e-8 },
+    },
     { id: 'rest', name: 'At rest', look: 'Nothing is bent, whatever the number of centers.', state: { places: ANCHORS } },
   ],
   moving: ['places'],

@@ -124,7 +124,8 @@ export default define({
     },
   ],
   moving: ['places'],
-  make: async (hb, state, work) => new Made(hb, await baked('bar-7', () => box, { centers: 100, spheres: 7, resolution: 48 }, work), state),
+  make: async (hb, state, work) =>
+    new Made(hb, await baked('bar-7', () => box, { centers: 100, spheres: 7, resolution: 48 }, work), state),
   move: ({ held }, { places }) => {
     held.pull(places);
     return held.follow();

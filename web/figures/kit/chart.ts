@@ -183,7 +183,7 @@ export class Chart {
     this.#clip.setAttribute('width', String(this.width));
     this.#clip.setAttribute('height', String(this.height));
     // On paper all of it is scaled as it is, by the style sheet: so in parts, not in pixels.
-    this.element.style.setProperty('--shape', `${width} / ${height}`);
+    this.element.style.setProperty('--shape', `${this.element.offsetWidth} / ${this.element.offsetHeight}`);
     const part = (pixels: number, of: number) => `${((100 * pixels) / of).toFixed(4)}%`;
     this.area.style.inset = `${part(top, height)} ${part(right, width)} ${part(bottom, height)} ${part(left, width)}`;
     this.#axes();

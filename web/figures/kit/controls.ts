@@ -1,5 +1,14 @@
 import { h } from '../../ui/dom.ts';
-import { type AutoRange, type Channels, type Choice, isParameter, type Parameter, type Range, type StateOf, type Switch } from './channel.ts';
+import {
+  type AutoRange,
+  type Channels,
+  type Choice,
+  isParameter,
+  type Parameter,
+  type Range,
+  type StateOf,
+  type Switch,
+} from './channel.ts';
 import type { Figure, PartControl } from './figure.ts';
 import { fromLog, toLog } from './scale.ts';
 import { brief } from './words.ts';
@@ -24,10 +33,19 @@ const NOTCHES = 400;
 let nextId = 1;
 
 /** What a figure lets one set: its parameters, and then parts of other channels. */
-export function partsOf<C extends Channels, M extends object>({ parameters, parts = [] }: Figure<C, M>): readonly PartControl<StateOf<C>>[] {
+export function partsOf<C extends Channels, M extends object>({
+  parameters,
+  parts = [],
+}: Figure<C, M>): readonly PartControl<StateOf<C>>[] {
   const own = Object.entries(parameters).flatMap(([key, parameter]): PartControl<StateOf<C>>[] =>
     isParameter(parameter)
-      ? [{ parameter: () => parameter, read: (state) => state[key], write: (_, value) => ({ [key]: value }) as unknown as Partial<StateOf<C>> }]
+      ? [
+          {
+            parameter: () => parameter,
+            read: (state) => state[key],
+            write: (_, value) => ({ [key]: value }) as unknown as Partial<StateOf<C>>,
+          },
+        ]
       : [],
   );
   return [...own, ...parts];

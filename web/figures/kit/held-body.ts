@@ -1,8 +1,9 @@
 import type { HandlebodyRuntime, Irbf, IrbfOptions, SolveReport } from '../../../wasm/ts/runtime.ts';
 import type { BodyData } from '../../../wasm/ts/types.ts';
 
-/** Iterations a frame: enough to follow a hand. */
-const A_FRAME = 4;
+/** Iterations between two looks at the clock, and milliseconds of a frame for them. */
+const ITERATIONS = 4;
+const A_FRAME = 6;
 /** From rest, for what is only looked at when it has settled. */
 const TO_THE_END = { maxIterations: 300, tolerance: 1e-7 };
 
@@ -40,7 +41,9 @@ export class HeldBody {
 
   /** A few iterations, and the shape after them. Whether it still moves. */
   follow(): boolean {
-    const { converged } = this.irbf.solve({ maxIterations: A_FRAME });
+    const end = performance.now() + A_FRAME;
+    let converged = false;
+    while (!converged && performance.now() < end) converged = this.irbf.solve({ maxIterations: ITERATIONS }).converged;
     this.#take();
     return !converged;
   }

@@ -37,6 +37,11 @@ interface Disposable {
   dispose?(): void;
 }
 
+interface Shown<C extends Channels> {
+  readonly preset: Preset<C>;
+  readonly state: StateOf<C>;
+}
+
 /** A figure on a page: its state, what was made of it, its pictures and controls. */
 export class Live<C extends Channels, M extends Disposable> {
   /** Has the figure as its property `figure`. */
@@ -62,7 +67,7 @@ export class Live<C extends Channels, M extends Disposable> {
   #state: StateOf<C>;
   #made: M | undefined;
   /** The state that `made` and the pictures are of. */
-  #good: { readonly preset: Preset<C>; readonly state: StateOf<C> } | undefined;
+  #good: Shown<C> | undefined;
   #work: AbortController | undefined;
   #unmade = true;
   #unmoved = false;
@@ -100,6 +105,8 @@ export class Live<C extends Channels, M extends Disposable> {
     if (text === this.state) return;
     const read = fromText(this.#figure.parameters, this.#figure.presets, text, this.#figure.former);
     this.#preset = read.preset;
+    // Whoever asked is told what came of it, though it be what was shown before.
+    this.#text = '';
     this.change(read.state);
     this.#sayLeft(read);
   }
@@ -117,16 +124,38 @@ export class Live<C extends Channels, M extends Disposable> {
   change(patch: Partial<StateOf<C>>): void {
     tell(this.#notice, '');
     const { moving = [], shown = [] } = this.#figure;
-    const keys = Object.keys(patch).filter((key) => patch[key] !== this.#visible[key]);
-    const light = keys.filter((key) => moving.includes(key) || shown.includes(key));
-    // While something else is made, what is dragged meanwhile is that which is still shown.
-    const waits = this.#work !== undefined && light.length === keys.length && this.#good;
-    const stays = waits ? light.filter((key) => this.#state[key] !== waits.state[key]) : [];
-    if (waits) this.#good = { ...waits, state: { ...waits.state, ...patch } };
-    this.#state = { ...this.#state, ...Object.fromEntries(Object.entries(patch).filter(([key]) => !stays.includes(key))) };
-    if (light.length < keys.length) this.#unmade = true;
-    if (keys.some((key) => moving.includes(key))) this.#unmoved = true;
+    const isLight = (key: string) => moving.includes(key) || shown.includes(key);
+    const keys = Object.keys(patch);
+    const seen = this.#visible;
+    if (keys.some((key) => moving.includes(key) && patch[key] !== seen[key])) this.#unmoved = true;
+    const good = this.#work && this.#good;
+    if (good) this.#changeMeanwhile(patch, good, isLight);
+    else {
+      if (keys.some((key) => !isLight(key) && patch[key] !== this.#state[key])) this.#unmade = true;
+      this.#state = { ...this.#state, ...patch };
+    }
+    if (this.#unmade) this.element.dataset.state = this.#good ? 'ready' : 'loading';
     this.#stir();
+  }
+
+  /** Something else is being made, and this is still shown: what is dragged is that, and what is chosen may be that again. */
+  #changeMeanwhile(patch: Partial<StateOf<C>>, good: Shown<C>, isLight: (key: string) => boolean): void {
+    const next = { ...this.#state, ...patch };
+    const heavy = Object.keys(next).filter((key) => !isLight(key));
+    if (Object.keys(patch).every(isLight)) {
+      const kept = Object.keys(patch).filter((key) => this.#state[key] !== good.state[key]);
+      this.#state = { ...next, ...Object.fromEntries(kept.map((key) => [key, this.#state[key]])) };
+      this.#good = { ...good, state: { ...good.state, ...patch } };
+    } else if (heavy.every((key) => next[key] === good.state[key])) {
+      this.#work?.abort();
+      this.#end();
+      [this.#preset, this.#state] = [good.preset, { ...good.state, ...patch }];
+      this.#unmade = false;
+      this.#unmoved = true;
+    } else {
+      this.#state = next;
+      this.#unmade = true;
+    }
   }
 
   reset(): void {
@@ -199,6 +228,7 @@ export class Live<C extends Channels, M extends Disposable> {
       this.#stir();
     } catch (error) {
       this.element.dataset.state = 'failed';
+      this.element.dataset.rest = 'yes';
       this.#trouble.tell(error);
     }
   }
@@ -266,16 +296,18 @@ export class Live<C extends Channels, M extends Disposable> {
       this.element.dataset.state = 'ready';
     } catch (error) {
       // What was asked for meanwhile tells its own end.
-      if (this.#disposed || (this.#work && this.#work !== work)) return;
+      if (this.#disposed || (work.signal.aborted && this.#work !== work)) return;
       this.#failed(error, state);
     } finally {
       clearTimeout(patience);
-      if (this.#work === work) {
-        this.#work = undefined;
-        this.#progress.end();
-      }
+      if (this.#work === work) this.#end();
       this.#show();
     }
+  }
+
+  #end(): void {
+    this.#work = undefined;
+    this.#progress.end();
   }
 
   #failed(error: unknown, asked: StateOf<C>): void {
@@ -367,6 +399,9 @@ export class Live<C extends Channels, M extends Disposable> {
   /** The controls, the caption and the row of presets say what the state is. */
   #show(): void {
     for (const control of this.#controls) control.show(this.#state);
+    // Nothing is shown, so nothing is chosen: any of it can be asked for.
+    if (this.element.dataset.state === 'failed' && !this.#work)
+      for (const radio of this.element.querySelectorAll<HTMLInputElement>('input[type=radio]')) radio.checked = false;
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
     this.#title.textContent = title;
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');

@@ -5,7 +5,12 @@ export function inSpace(initial: readonly number[]): Channel<readonly number[]> 
   return {
     initial,
     write: (numbers) => {
-      const rows = Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3).map(short).join(','));
+      const rows = Array.from({ length: numbers.length / 3 }, (_, i) =>
+        numbers
+          .slice(3 * i, 3 * i + 3)
+          .map(short)
+          .join(','),
+      );
       return rows.join(';');
     },
     read: (text) => {

@@ -1,15 +1,6 @@
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Group,
-  IcosahedronGeometry,
-  InstancedMesh,
-  Matrix4,
-  MeshLambertMaterial,
-  Points,
-  PointsMaterial,
-} from 'three';
+import { Group, IcosahedronGeometry, InstancedMesh, Matrix4, MeshLambertMaterial } from 'three';
 import { cameraTools } from '../../stage/camera-tools.ts';
+import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
 import { View } from '../../stage/view.ts';
 import { HandleOverlay } from '../../three/handles.ts';
@@ -82,7 +73,7 @@ export class Stage {
   #group = new Group();
   #surface: Surface | undefined;
   #balls: InstancedMesh | undefined;
-  #dots: Points | undefined;
+  #dots: InstancedMesh | undefined;
   #handles: readonly SpaceHandle[] = [];
   #names = '';
   #framed: Surface | undefined;
@@ -97,9 +88,9 @@ export class Stage {
     });
     const container = h('div', { class: 'handles' });
     const note = h('p', { class: 'note', role: 'status', hidden: true });
-    viewport.append(canvas);
+    viewport.append(canvas, container);
     this.#view = new View(canvas, viewport, sharedEasel());
-    this.element = h('div', { class: 'stage' }, viewport, container, cameraTools(this.#view, viewport), note);
+    this.element = h('div', { class: 'stage' }, viewport, cameraTools(this.#view, viewport), note);
     const line = new Note(note);
     this.#view.onInterrupted = (words) => line.show(words);
     this.#overlay = new HandleOverlay({
@@ -118,6 +109,8 @@ export class Stage {
       this.#balls = this.#dots = undefined;
       this.#surface = new Surface(rest);
       this.#group.add(this.#surface);
+      this.#surface.geometry.computeBoundingSphere();
+      this.#overlay.step = (this.#surface.geometry.boundingSphere?.radius ?? 1) / 50;
     }
     write(this.#surface);
     this.#surface.moved();
@@ -127,13 +120,7 @@ export class Stage {
   /** Balls as a mapping leaves them: 18 numbers each, the images of the ends of three diameters at right angles. */
   balls(ends: ArrayLike<number>): this {
     const count = ends.length / 18;
-    if (this.#balls?.count !== count) {
-      if (this.#balls) this.#group.remove(this.#balls);
-      this.#balls?.geometry.dispose();
-      this.#balls = new InstancedMesh(new IcosahedronGeometry(1, 4), new MeshLambertMaterial({ color: 0x3f6fc4 }), count);
-      this.#balls.frustumCulled = false;
-      this.#group.add(this.#balls);
-    }
+    this.#balls = this.#many(this.#balls, count, 4);
     const at = (ball: number, point: number, axis: number) => ends[18 * ball + 3 * point + axis] as number;
     const { elements } = this.#matrix.identity();
     for (let ball = 0; ball < count; ball++) {
@@ -148,7 +135,6 @@ export class Stage {
       }
       this.#balls.setMatrixAt(ball, this.#matrix);
     }
-    this.#balls.instanceMatrix.needsUpdate = true;
     return this;
   }
 
@@ -156,19 +142,14 @@ export class Stage {
   dots(vertices: ArrayLike<number>): this {
     const positions = this.#surface?.positions;
     if (!positions) return this;
-    if (!this.#dots) {
-      const place = new BufferAttribute(new Float32Array(3 * vertices.length), 3);
-      const material = new PointsMaterial({ color: 0x1f5fc4, size: 7, sizeAttenuation: false });
-      this.#dots = new Points(new BufferGeometry().setAttribute('position', place), material);
-      this.#dots.frustumCulled = false;
-      this.#group.add(this.#dots);
-    }
-    const place = this.#dots.geometry.getAttribute('position');
-    for (let i = 0; i < place.count; i++) {
+    this.#dots = this.#many(this.#dots, vertices.length, 1);
+    const size = this.#overlay.step;
+    for (let i = 0; i < vertices.length; i++) {
       const v = 3 * (vertices[i] as number);
-      place.setXYZ(i, positions[v] as number, positions[v + 1] as number, positions[v + 2] as number);
+      this.#matrix.makeScale(size, size, size);
+      this.#matrix.setPosition(positions[v] as number, positions[v + 1] as number, positions[v + 2] as number);
+      this.#dots.setMatrixAt(i, this.#matrix);
     }
-    place.needsUpdate = true;
     return this;
   }
 
@@ -177,8 +158,24 @@ export class Stage {
     const names = handles.map(({ name }) => name).join('\n');
     if (names !== this.#names) this.#overlay.set(handles.map(({ name, at }) => ({ name, position: at })));
     this.#names = names;
-    handles.forEach(({ at }, i) => this.#overlay.setPosition(i, ...at));
+    for (const [i, { at }] of handles.entries()) this.#overlay.setPosition(i, ...at);
     return this;
+  }
+
+  /** So many balls, kept while their number stays. */
+  #many(kept: InstancedMesh | undefined, count: number, detail: number): InstancedMesh {
+    if (kept?.count === count) {
+      kept.instanceMatrix.needsUpdate = true;
+      return kept;
+    }
+    if (kept) {
+      this.#group.remove(kept);
+      disposeObject(kept);
+    }
+    const made = new InstancedMesh(new IcosahedronGeometry(1, detail), new MeshLambertMaterial({ color: 0x2f63bd }), count);
+    made.frustumCulled = false;
+    this.#group.add(made);
+    return made;
   }
 
   show(from: { readonly azimuth: number; readonly elevation: number }): void {
@@ -186,8 +183,6 @@ export class Stage {
       this.#framed = this.#surface;
       this.#view.show(this.#group);
       this.#view.frame(this.#surface, from, true);
-      this.#surface.geometry.computeBoundingSphere();
-      this.#overlay.step = (this.#surface.geometry.boundingSphere?.radius ?? 1) / 50;
     } else this.#view.changed();
   }
 

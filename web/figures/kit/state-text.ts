@@ -48,7 +48,12 @@ export function toText<C extends Channels>(channels: C, preset: Preset<C>, state
 }
 
 /** The state that a text says, as far as it can be read; the first preset where it says nothing. Never throws. */
-export function fromText<C extends Channels>(channels: C, presets: readonly Preset<C>[], text: string, former: Former<C> = {}): ReadState<C> {
+export function fromText<C extends Channels>(
+  channels: C,
+  presets: readonly Preset<C>[],
+  text: string,
+  former: Former<C> = {},
+): ReadState<C> {
   const [first] = presets;
   if (!first) throw new Error('A figure needs a preset.');
   const parts = text.replace(/^#/, '').split('&').filter(Boolean);

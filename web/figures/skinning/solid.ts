@@ -17,7 +17,11 @@ const handle: Channel<number> = {
   read: (text) => (/^[0-5]$/.test(text) ? Number(text) : undefined),
   write: String,
 };
-const solid: Channel<SolidName> = { initial: 'bar', read: (text) => (text in HANDLES ? (text as SolidName) : undefined), write: String };
+const solid: Channel<SolidName> = {
+  initial: 'bar',
+  read: (text) => (text in HANDLES ? (text as SolidName) : undefined),
+  write: String,
+};
 const parameters = {
   solid,
   method: choice(

@@ -39,8 +39,7 @@ export function figurePage(only?: string): void {
     const named = !only && id === listed.id;
     const state = named ? text.slice(listed.id.length + 1) : text;
     asked = listed;
-    for (const link of links.children)
-      link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
+    for (const link of links.children) link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
     if (shown?.listed === listed) {
       shown.live.state = state;
       return;
