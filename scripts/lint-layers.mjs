@@ -1,5 +1,6 @@
 // The layering of the house: nothing imports or includes upward, sideways or in a circle. The tables are the rules.
 import { readFileSync } from 'node:fs';
+import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { findCycle, globalUses, isCpp, isScript, references } from './lib/imports.mjs';
 import { at } from './lib/paths.mjs';
@@ -23,7 +24,7 @@ const GLTF = '@gltf-transform/';
  * @property {string[]} [lazy] packages that only a dynamic import() may name
  * @property {string[]} [never] packages that no chain of imports may reach
  * @property {string[]} [globals] globals that must not be touched
- * @property {boolean} [apart] its files do not use each other
+ * @property {boolean} [apart] its files do not use each other; what one of them uses alone lies in a folder of its name
  */
 
 /** @type {Record<string, Layer>} The longest folder that contains a file decides. */
@@ -47,7 +48,9 @@ export const LAYERS = {
   'web/stage': { may: ['web/ui'], packages: ['three'] },
   'web/figures/kit': { may: [...BASE, 'web/ui', 'web/stage'], packages: ['three', 'd3-array', 'd3-contour'] },
   'web/figures/course': { may: KIT, packages: ['three'], apart: true },
-  'web/figures': { may: ['web/figures/kit', 'web/figures/course'] },
+  'web/figures/irbf': { may: KIT, packages: ['three'], apart: true },
+  'web/figures/skinning': { may: KIT, packages: ['three'], apart: true },
+  'web/figures': { may: ['web/figures/kit', 'web/figures/course', 'web/figures/irbf', 'web/figures/skinning'] },
   'web/element': { may: [...BASE, 'web/ui'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
@@ -59,6 +62,13 @@ export const LAYERS = {
 
 /** Headers that would tie the core to one platform. */
 const FOREIGN_HEADERS = /^(emscripten|wasm_simd128|abi\/)/;
+
+/** Whether two files are one figure: "solid.ts", and what lies in "solid/". @param {string} a @param {string} b */
+function areOne(a, b) {
+  const home = (/** @type {string} */ file) => Object.keys(LAYERS).find((folder) => path.posix.dirname(file) === folder);
+  const name = (/** @type {string} */ file) => (home(file) ? file.replace(/\.\w+$/, '') : path.posix.dirname(file));
+  return name(a) === name(b);
+}
 
 /** The layer's folder of a file. @param {string} file */
 function layerOf(file) {
@@ -97,7 +107,7 @@ export function lintLayers(files) {
       else if (ref.file) {
         const target = layerOf(ref.file) ?? ref.file;
         if (target !== folder && !layer.may.includes(target)) violations.push(`${where} use ${target} (${ref.text})`);
-        if (target === folder && layer.apart)
+        if (target === folder && layer.apart && !areOne(file, ref.file))
           violations.push(`${file}:${ref.line}: a figure uses its kit, never another one (${ref.text})`);
       } else if (isScript(file) && isPackage(ref)) {
         if (!listed(ref.text, layer.packages) && !(ref.dynamic && listed(ref.text, layer.lazy)))

@@ -56,7 +56,22 @@ const PAGES: Record<string, Page> = {
   solid: {
     read: solid.fromAddress,
     write: solid.toAddress,
-    words: ['bar', 'dog', 'solid=', 'm=', 'blend=', 'bounded', 'harmonic', 'rigid', 'linear', 'v1&', 'from=', 'poses=', '1:', '0,0,0,'],
+    words: [
+      'bar',
+      'dog',
+      'solid=',
+      'm=',
+      'blend=',
+      'bounded',
+      'harmonic',
+      'rigid',
+      'linear',
+      'v1&',
+      'from=',
+      'poses=',
+      '1:',
+      '0,0,0,',
+    ],
   },
 };
 

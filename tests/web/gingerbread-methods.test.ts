@@ -49,14 +49,14 @@ describe('methods', () => {
   it('interior radial basis functions are prepared on demand, on both distances', async () => {
     const { page, said } = await bend(browser, '#shape=octopus&v=600&h=p:0,0.4~p:-0.44,-0.95,-0.4,0.1,0~p:0.44,-0.95');
     const before = await picture(page);
-    const first = page.waitForSelector('#note progress');
+    const first = page.waitForEvent('worker');
     await page.locator('.families input[value=irbf]').check();
     await first;
     await rested(page);
     await finished(page);
     const interior = await picture(page);
     expect(difference(before, interior)).toBeGreaterThan(500);
-    const second = page.waitForSelector('#note progress');
+    const second = page.waitForEvent('worker');
     await page.getByRole('radio', { name: /^Euclidean/ }).check();
     await second;
     await rested(page);

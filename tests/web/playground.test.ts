@@ -558,6 +558,7 @@ describe('the focus', () => {
 
     await page.locator('.points-part summary').click();
     const rows = page.locator('.points-table tbody tr');
+    await soon(() => rows.count()).toBe(count - 3);
     await rows.last().locator('button').focus();
     await page.keyboard.press('Enter');
     await rested(page);

@@ -1,6 +1,6 @@
 import type { BodyData } from '../../../wasm/ts/types.ts';
-import { boxSurface } from '../../models/box.ts';
 import { baked } from '../kit/baked.ts';
+import { boxSurface } from '../kit/box.ts';
 import { range, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
 import { HeldBody, rows } from '../kit/held-body.ts';

@@ -1,7 +1,7 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { BodyData } from '../../../wasm/ts/types.ts';
-import { boxSurface } from '../../models/box.ts';
 import { baked } from '../kit/baked.ts';
+import { boxSurface } from '../kit/box.ts';
 import { autoRange, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
 import { HeldBody, rows } from '../kit/held-body.ts';

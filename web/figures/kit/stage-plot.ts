@@ -66,7 +66,7 @@ class StagePlot<M, S> implements OpenPanel<M, S> {
 }
 
 /** What a figure in space draws with. */
-export class Stage {
+class Stage {
   readonly element: HTMLElement;
   readonly #view: View;
   readonly #overlay: HandleOverlay;

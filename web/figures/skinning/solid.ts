@@ -7,8 +7,8 @@ import { stagePlot } from '../kit/stage-plot.ts';
 import type { SolidWeights } from '../kit/weigh.ts';
 import { weightsOf } from '../kit/weights.ts';
 import { brief } from '../kit/words.ts';
-import { type Pose, poseOf, posesOf, writeTransform } from './pose.ts';
-import { HANDLES, type Solid, type SolidName, solidOf } from './solids.ts';
+import { type Pose, poseOf, posesOf, writeTransform } from './solid/pose.ts';
+import { HANDLES, type Solid, type SolidName, solidOf } from './solid/solids.ts';
 
 const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
 

@@ -1,11 +1,11 @@
-import type { Vec3 } from '../../../wasm/ts/types.ts';
-import type { Channel } from '../kit/channel.ts';
+import type { Vec3 } from '../../../../wasm/ts/types.ts';
+import type { Channel } from '../../kit/channel.ts';
 
 /** Of one handle: turns about x, y and z in degrees, and a shift in parts of the solid's diagonal. */
 export type Pose = readonly [turnX: number, turnY: number, turnZ: number, shiftX: number, shiftY: number, shiftZ: number];
 
 /** By the handle's number; those that are not here are at rest. */
-export type Poses = Readonly<Record<number, Pose>>;
+type Poses = Readonly<Record<number, Pose>>;
 
 const REST: Pose = [0, 0, 0, 0, 0, 0];
 const MOST: Pose = [180, 180, 180, 0.5, 0.5, 0.5];

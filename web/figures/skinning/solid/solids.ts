@@ -1,7 +1,7 @@
-import type { WeightHandle } from '../../../wasm/ts/index.ts';
-import type { Vec3 } from '../../../wasm/ts/types.ts';
-import { boxSurface } from '../../models/box.ts';
-import { fetchModel } from '../kit/read-model.ts';
+import type { WeightHandle } from '../../../../wasm/ts/index.ts';
+import type { Vec3 } from '../../../../wasm/ts/types.ts';
+import { boxSurface } from '../../kit/box.ts';
+import { fetchModel } from '../../kit/read-model.ts';
 
 interface SolidHandle {
   readonly name: string;
