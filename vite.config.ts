@@ -20,6 +20,8 @@ export default defineConfig({
   publicDir: '../public',
   base: './',
   worker: { format: 'es' },
+  // As every host of these pages should: a frame that may not have the site's origin fetches them, too.
+  preview: { cors: { origin: '*' } },
   build: {
     outDir: '../build/site',
     emptyOutDir: true,

@@ -1,8 +1,9 @@
 import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
-import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { FIGURES } from '../../web/figures/list.ts';
+import { goRound, growth, INTERPRETED } from '../bench/figures/rounds.mjs';
 import { openFigure, settled, told, toldNumber } from './support/figure.ts';
 import { listen } from './support/listen.ts';
 import { cramped, violations } from './support/manners.ts';
@@ -65,6 +66,15 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
   });
 });
 
+it('twelve rounds through all figures leave nothing behind', async () => {
+  const own = await launch(INTERPRETED);
+  onTestFinished(() => own.close());
+  const page = await own.newPage({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
+  const { heap, ...grown } = growth(await goRound(page, `${inject('site')}learn/figures/`, 12));
+  expect(grown).toEqual({ nodes: 0, listeners: 0, solver: 0 });
+  expect(heap).toBeLessThan(0.02);
+});
+
 it('a picture is saved as SVG and as PNG, as it looks', async () => {
   const { page } = await openFigure(browser, 'course-12');
   const saved = async (name: string) => {
@@ -84,6 +94,32 @@ it('a picture is saved as SVG and as PNG, as it looks', async () => {
   for (let i = 0; i < picture.data.length; i += 4) colors.add(picture.data.readUInt32BE(i));
   expect(colors.size).toBeGreaterThan(50);
 });
+
+it.each(FIGURES.map(({ id }) => id))(
+  '%s works in a frame that may not have the site’s origin, and says what it must do without',
+  async (id) => {
+    const page = await browser.newPage({ reducedMotion: 'reduce' });
+    onTestFinished(() => page.close());
+    await page.addInitScript(() => {
+      globalThis.Worker = new Proxy(globalThis.Worker, {
+        construct(target, [url, options]) {
+          Object.assign(globalThis, { triedWorkers: ((globalThis as { triedWorkers?: number }).triedWorkers ?? 0) + 1 });
+          return new target(url, options);
+        },
+      });
+    });
+    await page.setContent(
+      `<iframe sandbox="allow-scripts" width="1000" height="700" src="${inject('site')}learn/figures/#${id}"></iframe>`,
+    );
+    const frame = page.frameLocator('iframe');
+    await frame.locator(`[data-figure="${id}"][data-state=ready][data-rest=yes]`).waitFor({ timeout: 60_000 });
+    const codes = await frame
+      .locator('.figure .trouble:visible')
+      .evaluateAll((all) => all.map((one) => (one as HTMLElement).dataset.code));
+    const tried = await frame.locator('body').evaluate(() => (globalThis as { triedWorkers?: number }).triedWorkers ?? 0);
+    expect(codes).toEqual(tried > 0 ? ['worker-unavailable'] : []);
+  },
+);
 
 it('a link to what cannot be made opens the preset, and says so', async () => {
   // Two values at one place.

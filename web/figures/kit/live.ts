@@ -121,6 +121,11 @@ export class Live<C extends Channels, M extends Disposable> {
     return this.#told;
   }
 
+  /** Bytes that the solver's memory has. */
+  get memory(): number {
+    return this.#hb?.memory ?? 0;
+  }
+
   change(patch: Partial<StateOf<C>>): void {
     tell(this.#notice, '');
     const { moving = [], shown = [] } = this.#figure;

@@ -27,7 +27,8 @@ export function figurePage(only?: string): void {
   const trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
   const line = new Trouble(trouble, () => byId('copy'));
   let shown: { readonly listed: Listed; readonly live: Shown } | undefined;
-  let asked: Listed | undefined;
+  /** How often something was asked for: only what was asked for last is shown. */
+  let asked = 0;
   const addressOf = (listed: Listed, text: string) => (only ? text : `${listed.id}&${text}`);
   main.replaceChildren(trouble);
 
@@ -38,7 +39,7 @@ export function figurePage(only?: string): void {
     if (!listed) return;
     const named = !only && id === listed.id;
     const state = named ? text.slice(listed.id.length + 1) : text;
-    asked = listed;
+    const mine = ++asked;
     for (const link of links.children) link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
     if (shown?.listed === listed) {
       shown.live.state = state;
@@ -51,14 +52,14 @@ export function figurePage(only?: string): void {
     main.ariaBusy = 'true';
     try {
       const figure = (await parts.get(listed.id)?.(addressOf(listed, state)))?.default;
-      if (!figure || asked !== listed) return;
+      if (!figure || asked !== mine) return;
       const onChange = (changed: string, step: boolean) => writeAddress(addressOf(listed, changed), step);
       shown = { listed, live: new Live(figure, { solvers, state, onChange }) };
       main.append(shown.live.element);
     } catch (error) {
-      if (asked === listed) line.tell(error, () => void open());
+      if (asked === mine) line.tell(error, () => void open());
     } finally {
-      if (asked === listed) main.ariaBusy = 'false';
+      if (asked === mine) main.ariaBusy = 'false';
     }
   };
 

@@ -1,0 +1,63 @@
+/**
+ * Rounds through all figures in one page, each until it rests; what the page holds after each, as the browser counts it after a forced
+ * collection.
+ */
+
+/** For the browser: machine code that V8 makes while a page runs is on its heap, too, and grows for hundreds of rounds. */
+export const INTERPRETED = ['--js-flags=--no-opt --no-maglev --no-sparkplug'];
+
+/**
+ * @typedef {{ nodes: number, listeners: number, heap: number, solver: number }} Held DOM nodes, listeners of events, bytes of JavaScript's
+ *   heap, and bytes of the solver's memory.
+ */
+
+/**
+ * @param {import('playwright-core').Page} page
+ * @param {string} address Of the page of figures.
+ * @param {number} rounds
+ * @param {(round: number, held: Held) => void} [onRound]
+ * @returns {Promise<Held[]>} After each round.
+ */
+export async function goRound(page, address, rounds, onRound) {
+  await page.goto(address);
+  const ids = await page
+    .locator('#figures a')
+    .evaluateAll((links) => links.map((link) => /** @type {HTMLAnchorElement} */ (link).hash.slice(1)));
+  const cdp = await page.context().newCDPSession(page);
+  await cdp.send('Performance.enable');
+  /** @type {Held[]} */
+  const held = [];
+  for (let round = 0; round < rounds; round++) {
+    for (const id of ids) {
+      await page.evaluate((hash) => {
+        location.hash = hash;
+      }, id);
+      // A locator, not a selector, which would keep what it found.
+      await page.locator(`[data-figure="${id}"][data-state=ready][data-rest=yes]`).waitFor({ timeout: 60_000 });
+    }
+    held.push(await count(page, cdp));
+    onRound?.(round, /** @type {Held} */ (held.at(-1)));
+  }
+  await cdp.detach();
+  return held;
+}
+
+/** @param {import('playwright-core').Page} page @param {import('playwright-core').CDPSession} cdp @returns {Promise<Held>} */
+async function count(page, cdp) {
+  // What waits for a collection to be told of (workers, observers) is told after it, and may free more.
+  for (let i = 0; i < 3; i++) {
+    await cdp.send('HeapProfiler.collectGarbage');
+    await page.waitForTimeout(50);
+  }
+  const { metrics } = await cdp.send('Performance.getMetrics');
+  const of = (/** @type {string} */ name) => metrics.find((metric) => metric.name === name)?.value ?? Number.NaN;
+  const solver = await page.evaluate(() => /** @type {any} */ (document.querySelector('.figure'))?.figure.memory ?? Number.NaN);
+  return { nodes: of('Nodes'), listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize'), solver };
+}
+
+/** The largest change of each count from the tenth round on, over what it was then. @param {Held[]} held @returns {Held} */
+export function growth(held) {
+  const from = /** @type {Held} */ (held[9]);
+  const most = (/** @type {keyof Held} */ key) => Math.max(...held.slice(9).map((now) => Math.abs(now[key] / from[key] - 1)));
+  return { nodes: most('nodes'), listeners: most('listeners'), heap: most('heap'), solver: most('solver') };
+}
