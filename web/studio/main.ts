@@ -9,6 +9,7 @@ import { listenForFiles } from './drop.ts';
 import { ModelSwitch } from './model-switch.ts';
 import { Studio } from './studio.ts';
 
+byId('unfetched').remove();
 const viewport = byId('viewport');
 const messages = new Messages(byId('messages'), () => viewport);
 const progress = new Progress(byId('progress'));

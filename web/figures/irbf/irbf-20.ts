@@ -3,8 +3,8 @@ import { baked } from '../kit/baked.ts';
 import { boxSurface } from '../kit/box.ts';
 import { range, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
-import { HeldBody, rows } from '../kit/held-body.ts';
-import { inSpace, placed } from '../kit/space-points.ts';
+import { HeldBody } from '../kit/held-body.ts';
+import { inSpace, rows } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
@@ -45,17 +45,10 @@ const panelOf = (count: number, k: number) =>
     label: `The bar with ${count} centers`,
     title: `${count} centers`,
     view: () => ({ azimuth: 18, elevation: 20 }),
-    draw: (stage, { bars }, { places }, change) => {
+    draw: (stage, { bars }) => {
       const { held, body } = bars[k] as One;
       stage.surface(box, (surface) => surface.positions.set(held.positions));
-      stage.dots(body.centers);
-      const handle = (at: [number, number, number], i: number) => ({
-        name: NAMES[i] ?? '',
-        at,
-        move: (...to: [number, number, number]) => change({ places: placed(places, i, to) }),
-        reset: () => change({ places: placed(places, i, ANCHORS.slice(3 * i, 3 * i + 3)) }),
-      });
-      stage.handles(rows(places).map(handle));
+      stage.dots(body.centers).points('places', NAMES, ANCHORS);
     },
   });
 

@@ -1,12 +1,12 @@
-import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { BodyData } from '../../../wasm/ts/types.ts';
 import { baked } from '../kit/baked.ts';
 import { boxSurface } from '../kit/box.ts';
 import { autoRange, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
-import { HeldBody, rows } from '../kit/held-body.ts';
+import { HeldBody } from '../kit/held-body.ts';
 import { linePlot } from '../kit/line-plot.ts';
-import { inSpace, placed } from '../kit/space-points.ts';
+import { through } from '../kit/samples.ts';
+import { inSpace } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
@@ -14,7 +14,7 @@ const box = boxSurface([10, 2, 2], [40, 8, 8]);
 const ANCHORS = [-4.8, 0, 0, -4.8, 0.8, 0, -4.8, 0, 0.8, 4.8, 0, 0];
 const NAMES = ['Left end', 'Left end, above', 'Left end, in front', 'Right end'];
 const EXPONENTS = Array.from({ length: 19 }, (_, i) => i / 2 - 9);
-/** Along the bar's axis, from before the farthest large sphere to the end. */
+/** Along the axis, from before the farthest large sphere to the end: beyond it nothing but smoothness holds the bar together. */
 const BEYOND = Float64Array.from({ length: 300 }, (_, i) => (i % 3 === 0 ? 3.5 + (1.4 * i) / 297 : 0));
 
 const parameters = {
@@ -23,80 +23,15 @@ const parameters = {
 };
 type State = StateOf<typeof parameters>;
 
-/** The largest stretch of the axis near the farthest sphere: beyond it nothing but smoothness holds the bar together. */
-function jump({ irbf }: HeldBody): number {
-  const image = irbf.evaluate(BEYOND);
-  let most = 0;
-  for (let i = 3; i < image.length; i += 3) {
-    const step = Math.hypot(...[0, 1, 2].map((k) => (image[i + k] ?? 0) - (image[i - 3 + k] ?? 0)));
-    most = Math.max(most, step / ((BEYOND[i] ?? 0) - (BEYOND[i - 3] ?? 0)));
-  }
-  return most;
-}
+/** For each exponent of λ, and what the solver would choose: the last ones of a body, which stay while λ is moved. */
+const sweeps = new WeakMap<BodyData, { places: readonly number[]; automatic: number; jumps: number[]; strains: number[] }>();
 
-interface Curves {
-  readonly places: readonly number[];
-  readonly jump: Float64Array;
-  readonly strain: Float64Array;
-}
-
-/** The last ones, which stay while λ is moved. */
-const sweeps = new WeakMap<BodyData, Curves>();
-
-class Made {
+interface Made {
   readonly held: HeldBody;
-  /** λ, as given or as chosen. */
-  readonly smoothness: number;
-  /** What the solver would choose. */
-  readonly automatic: number;
-  curves: Curves;
-  readonly #hb: HandlebodyRuntime;
-  readonly #body: BodyData;
-
-  constructor(hb: HandlebodyRuntime, body: BodyData, { smoothness, places }: State) {
-    [this.#hb, this.#body] = [hb, body];
-    const free = new HeldBody(hb, body, ANCHORS, {});
-    this.automatic = free.irbf.report().smoothness;
-    free.dispose();
-    this.smoothness = smoothness === 'auto' ? this.automatic : smoothness;
-    this.held = new HeldBody(hb, body, ANCHORS, { smoothness: this.smoothness });
-    this.held.pull(places);
-    this.held.settle();
-    const none = new Float64Array(EXPONENTS.length);
-    this.curves = sweeps.get(body) ?? { places: [], jump: none, strain: none };
-  }
-
-  /** From far too small to far too large a λ, for the handles as they are. */
-  sweep(places: readonly number[]): void {
-    if (places === this.curves.places) return;
-    const [jumps, strains] = [new Float64Array(EXPONENTS.length), new Float64Array(EXPONENTS.length)];
-    EXPONENTS.forEach((exponent, i) => {
-      const held = new HeldBody(this.#hb, this.#body, ANCHORS, { smoothness: 10 ** exponent });
-      held.pull(places);
-      held.settle();
-      jumps[i] = jump(held);
-      strains[i] = held.strain;
-      held.dispose();
-    });
-    this.curves = { places, jump: jumps, strain: strains };
-    sweeps.set(this.#body, this.curves);
-  }
-
-  dispose(): void {
-    this.held.dispose();
-  }
+  readonly body: BodyData;
+  hold(smoothness: number | 'auto', places: readonly number[]): HeldBody;
+  dispose(): void;
 }
-
-/** A function through values at the exponents, straight between them. */
-const through = (values: Float64Array) => ({
-  evaluate: (xs: Float64Array, out: Float64Array) => {
-    for (let i = 0; i < xs.length; i++) {
-      const at = Math.min(Math.max(2 * ((xs[i] ?? 0) + 9), 0), values.length - 1);
-      const k = Math.min(Math.floor(at), values.length - 2);
-      out[i] = (values[k] ?? 0) + (at - k) * ((values[k + 1] ?? 0) - (values[k] ?? 0));
-    }
-  },
-});
 
 export default define({
   id: 'irbf-9',
@@ -124,54 +59,68 @@ export default define({
     },
   ],
   moving: ['places'],
-  make: async (hb, state, work) =>
-    new Made(hb, await baked('bar-7', () => box, { centers: 100, spheres: 7, resolution: 48 }, work), state),
+  make: async (hb, { smoothness, places }, work): Promise<Made> => {
+    const body = await baked('bar-7', () => box, { centers: 100, spheres: 7, resolution: 48 }, work);
+    const hold: Made['hold'] = (lambda, at) => {
+      const held = new HeldBody(hb, body, ANCHORS, { smoothness: lambda });
+      held.pull(at);
+      held.settle();
+      return held;
+    };
+    const held = hold(smoothness, places);
+    return { held, body, hold, dispose: () => held.dispose() };
+  },
   move: ({ held }, { places }) => {
     held.pull(places);
     return held.follow();
   },
-  settle: (made, { places }) => made.sweep(places),
+  settle: ({ body, hold }, { places }) => {
+    if (sweeps.get(body)?.places === places) return;
+    const all = [...EXPONENTS.map((exponent) => 10 ** exponent), 'auto' as const].map((smoothness) => hold(smoothness, places));
+    const automatic = all.at(-1)?.irbf.report().smoothness ?? 0;
+    sweeps.set(body, {
+      places,
+      automatic,
+      jumps: all.map((held) => held.stretch(BEYOND)),
+      strains: all.map(({ strain }) => strain),
+    });
+    for (const held of all) held.dispose();
+  },
   panels: {
     bar: stagePlot<Made, State>({
       label: 'The bar and its spheres',
       view: () => ({ azimuth: 18, elevation: 20 }),
-      draw: (stage, { held }, { places }, change) => {
+      draw: (stage, { held }) => {
         stage.surface(box, (surface) => {
           surface.positions.set(held.positions);
           surface.seeThrough(true);
         });
-        stage.balls(held.ends);
-        const handle = (at: [number, number, number], i: number) => ({
-          name: NAMES[i] ?? '',
-          at,
-          move: (...to: [number, number, number]) => change({ places: placed(places, i, to) }),
-          reset: () => change({ places: placed(places, i, ANCHORS.slice(3 * i, 3 * i + 3)) }),
-        });
-        stage.handles(rows(places).map(handle));
+        stage.balls(held.ends).points('places', NAMES, ANCHORS);
       },
     }),
     balance: linePlot<Made, State>({
       label: 'Plot over the logarithm of λ',
       frame: [-9, 0, 0, 3],
-      draw: (plot, { curves, smoothness, automatic }, _, change) => {
-        plot.curve('Jump', through(curves.jump), { detail: 'stretch near the farthest sphere' });
-        plot.curve('Misfit', through(curves.strain), { detail: 'strain of the spheres', dashed: true });
-        plot.rule(Math.log10(automatic), 'automatic λ');
-        plot.handles([
+      draw: (plot, { body }, state, change) => {
+        const { automatic, jumps, strains } = sweeps.get(body) ?? { automatic: 1e-5, jumps: [], strains: [] };
+        const exponent = Math.log10(state.smoothness === 'auto' ? automatic : state.smoothness);
+        plot.curve('Jump', through(EXPONENTS, jumps), { detail: 'stretch at the far sphere' });
+        plot.curve('Misfit', through(EXPONENTS, strains), { detail: 'strain of the spheres', dashed: true });
+        plot.rule(Math.log10(automatic), 'automatic λ').handles([
           {
-            name: `λ, 10 to the power ${Math.log10(smoothness).toFixed(1)}`,
-            at: [Math.log10(smoothness), 0],
+            name: `λ, 10 to the power ${exponent.toFixed(1)}`,
+            at: [exponent, 0],
             move: (x) => change({ smoothness: Number((10 ** Math.min(Math.max(x, -9), 0)).toPrecision(2)) }),
           },
         ]);
       },
     }),
   },
-  told: ({ held, smoothness, automatic }) => [
-    ['jump near the farthest sphere', jump(held)],
+  told: ({ held, body }) => [
+    ['jump near the farthest sphere', held.stretch(BEYOND)],
     ['misfit of the spheres', held.strain],
-    ['λ', smoothness],
-    ['automatic λ', automatic],
+    ['λ', held.irbf.report().smoothness],
+    ['automatic λ', sweeps.get(body)?.automatic ?? 0],
     ['volume, of that at rest', held.irbf.report().volumeRatio],
   ],
 });

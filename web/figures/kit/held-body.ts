@@ -1,5 +1,6 @@
 import type { HandlebodyRuntime, Irbf, IrbfOptions, SolveReport } from '../../../wasm/ts/runtime.ts';
 import type { BodyData } from '../../../wasm/ts/types.ts';
+import { rows } from './space-points.ts';
 
 /** Iterations between two looks at the clock, and milliseconds of a frame for them. */
 const ITERATIONS = 4;
@@ -72,6 +73,16 @@ export class HeldBody {
     return Math.sqrt(sum / this.#radii.length);
   }
 
+  /** The largest stretch along a line of points in space (n×3, model units), from each to the next. */
+  stretch(line: Float64Array): number {
+    const image = this.irbf.evaluate(line);
+    const step = (p: Float64Array, i: number) =>
+      Math.hypot(...[0, 1, 2].map((k) => (p[i + k] as number) - (p[i - 3 + k] as number)));
+    let most = 0;
+    for (let i = 3; i < line.length; i += 3) most = Math.max(most, step(image, i) / step(line, i));
+    return most;
+  }
+
   dispose(): void {
     this.irbf.dispose();
   }
@@ -80,9 +91,4 @@ export class HeldBody {
     this.irbf.deform(this.positions);
     this.irbf.evaluate(this.#restEnds, this.ends);
   }
-}
-
-/** n×3 numbers as n points. */
-export function rows(numbers: readonly number[]): [number, number, number][] {
-  return Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as [number, number, number]);
 }

@@ -1,3 +1,5 @@
+import { bisectRight } from 'd3-array';
+
 /** Left, right, bottom, top: what part of the data's world is in a picture. */
 export type Frame = readonly [number, number, number, number];
 
@@ -26,4 +28,19 @@ export class Samples {
 /** A row of numbers as long as another, reused from frame to frame. */
 export function asLong(kept: Float64Array | undefined, length: number): Float64Array {
   return kept?.length === length ? kept : new Float64Array(length);
+}
+
+/** A function known at places in their order, straight between them and level beyond. */
+export function through(places: readonly number[], values: ArrayLike<number>) {
+  return {
+    evaluate: (xs: Float64Array, out: Float64Array) => {
+      for (let i = 0; i < xs.length; i++) {
+        const x = xs[i] as number;
+        const k = Math.min(Math.max(bisectRight(places, x) - 1, 0), places.length - 2);
+        const [left = 0, right = 1] = [places[k], places[k + 1]];
+        const part = Math.min(Math.max((x - left) / (right - left), 0), 1);
+        out[i] = (values[k] ?? 0) + part * ((values[k + 1] ?? 0) - (values[k] ?? 0));
+      }
+    },
+  };
 }

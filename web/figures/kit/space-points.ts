@@ -30,3 +30,8 @@ export function placed(numbers: readonly number[], i: number, place: readonly nu
 function short(value: number): string {
   return String(Number(value.toPrecision(5)));
 }
+
+/** n×3 numbers as n points. */
+export function rows(numbers: readonly number[]): [number, number, number][] {
+  return Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as [number, number, number]);
+}

@@ -8,15 +8,14 @@ import { h } from '../../ui/dom.ts';
 import { Note } from '../../ui/note.ts';
 import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
+import { placed, rows } from './space-points.ts';
 import { Surface, type Triangulation } from './surface.ts';
 
-/** Something to drag in space. */
+type Place = readonly [x: number, y: number, z: number];
+
 interface SpaceHandle {
-  readonly name: string;
-  readonly at: readonly [x: number, y: number, z: number];
-  move(x: number, y: number, z: number): void;
-  /** Home, or Delete. */
-  reset?(): void;
+  move(...place: Place): void;
+  reset(): void;
 }
 
 interface StagePlotOptions<M, S> {
@@ -28,7 +27,7 @@ interface StagePlotOptions<M, S> {
   readonly legend?: string;
   /** From where it is seen at first: degrees. */
   view(state: S): { readonly azimuth: number; readonly elevation: number };
-  draw(stage: Stage, made: M, state: S, change: (patch: Partial<S>) => void): void;
+  draw(stage: Stage<S>, made: M, state: S): void;
 }
 
 /** A panel with a shape in space that is turned by dragging beside it, and handles on it. */
@@ -38,13 +37,12 @@ export function stagePlot<M, S>(options: StagePlotOptions<M, S>): Panel<M, S> {
 
 class StagePlot<M, S> implements OpenPanel<M, S> {
   readonly element: HTMLElement;
-  readonly #stage: Stage;
-  readonly #kit: Kit<S>;
+  readonly #stage: Stage<S>;
   readonly #options: StagePlotOptions<M, S>;
 
   constructor(kit: Kit<S>, options: StagePlotOptions<M, S>) {
-    [this.#kit, this.#options] = [kit, options];
-    this.#stage = new Stage(options.label);
+    this.#options = options;
+    this.#stage = new Stage(kit, options.label);
     const { title, legend } = options;
     this.element = h(
       'div',
@@ -56,7 +54,7 @@ class StagePlot<M, S> implements OpenPanel<M, S> {
   }
 
   draw(made: M, state: S): void {
-    this.#options.draw(this.#stage, made, state, this.#kit.change);
+    this.#options.draw(this.#stage, made, state);
     this.#stage.show(this.#options.view(state));
   }
 
@@ -66,8 +64,9 @@ class StagePlot<M, S> implements OpenPanel<M, S> {
 }
 
 /** What a figure in space draws with. */
-class Stage {
+class Stage<S> {
   readonly element: HTMLElement;
+  readonly #kit: Kit<S>;
   readonly #view: View;
   readonly #overlay: HandleOverlay;
   #group = new Group();
@@ -75,11 +74,12 @@ class Stage {
   #balls: InstancedMesh | undefined;
   #dots: InstancedMesh | undefined;
   #handles: readonly SpaceHandle[] = [];
-  #names = '';
+  #names: readonly string[] = [];
   #framed: Surface | undefined;
   readonly #matrix = new Matrix4();
 
-  constructor(label: string) {
+  constructor(kit: Kit<S>, label: string) {
+    this.#kit = kit;
     const canvas = h('canvas');
     const viewport = h('div', {
       class: 'viewport',
@@ -97,7 +97,7 @@ class Stage {
       camera: this.#view.camera,
       container,
       onMove: (i, { x, y, z }) => this.#handles[i]?.move(x, y, z),
-      onReset: (i) => this.#handles[i]?.reset?.(),
+      onReset: (i) => this.#handles[i]?.reset(),
     });
     this.#view.onDrawn = () => this.#overlay.update();
   }
@@ -153,12 +153,15 @@ class Stage {
     return this;
   }
 
-  handles(handles: readonly SpaceHandle[]): this {
-    this.#handles = handles;
-    const names = handles.map(({ name }) => name).join('\n');
-    if (names !== this.#names) this.#overlay.set(handles.map(({ name, at }) => ({ name, position: at })));
+  /** The points of a channel: dragged, and brought back to where they are at `rest` (n×3). */
+  points(key: keyof S & string, names: readonly string[], rest: readonly number[]): this {
+    const numbers = () => this.#kit.state[key] as readonly number[];
+    const put = (i: number, place: Place) => this.#kit.change({ [key]: placed(numbers(), i, place) } as Partial<S>);
+    const home = rows(rest);
+    this.#handles = home.map((own, i) => ({ move: (...place) => put(i, place), reset: () => put(i, own) }));
+    if (names !== this.#names) this.#overlay.set(home.map((position, i) => ({ name: names[i] ?? '', position })));
     this.#names = names;
-    for (const [i, { at }] of handles.entries()) this.#overlay.setPosition(i, ...at);
+    for (const [i, place] of rows(numbers()).entries()) this.#overlay.setPosition(i, ...place);
     return this;
   }
 
