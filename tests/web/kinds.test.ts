@@ -455,6 +455,24 @@ async function interrupt(page: Page, { picture = '' }: Kinds): Promise<void> {
   expect(colorsIn(await shot(page, picture))).toBeGreaterThan(20);
 }
 
+it.each(['studio/', 'learn/figures/', 'learn/solid-weights/'])(
+  'says in its HTML where its program does not come: %s',
+  async (address) => {
+    const page = await browser.newPage(USUAL);
+    onTestFinished(() => page.close());
+    await page.route('**/*.js', (asked) => asked.abort());
+    await page.goto(inject('site') + address);
+    const sentence = page.getByText(
+      /^The (studio|figure) is being fetched\. Where this sentence stays, .*Access-Control-Allow-Origin/,
+    );
+    expect(await sentence.isVisible()).toBe(true);
+    await page.unrouteAll();
+    await page.reload();
+    await page.locator('[data-state=ready]').waitFor({ timeout: 60_000 });
+    expect(await sentence.count()).toBe(0);
+  },
+);
+
 it('a view that is left leaves nothing behind', async () => {
   const root = fileURLToPath(new URL('../..', import.meta.url));
   const server = await createServer({
