@@ -8,7 +8,6 @@ import { run, which } from './run.mjs';
 const NATIVE_BUILD = at('build', 'native');
 
 /** @typedef {{ passed: number, failed: number }} Counts */
-/** @typedef {{ counts: Counts } | { notRun: string }} SuiteResult */
 
 /** What clang-tidy reads: how each source is compiled, without g++'s precompiled headers. Nothing is built there. */
 export const TIDY_BUILD = at('build', 'tidy');
@@ -29,23 +28,28 @@ export async function configureNative(folder = NATIVE_BUILD, settings = []) {
   return undefined;
 }
 
-/** Builds and runs the native tests. @returns {Promise<SuiteResult>} */
-export async function runNativeSuite() {
+/** Builds the native tests. @returns {Promise<{ run(): Promise<Counts> } | { notRun: string }>} What runs them, on one core. */
+export async function prepareNativeSuite() {
   const notRun = await configureNative();
   if (notRun) return { notRun };
   if ((await cmakeBuild(NATIVE_BUILD, { target: 'handlebody_tests' })) !== 0) {
     console.error('native suite: does not compile');
-    return { counts: { passed: 0, failed: 1 } };
+    return { run: async () => ({ passed: 0, failed: 1 }) };
   }
-  let output = '';
-  const status = await run(path.join(NATIVE_BUILD, 'handlebody_tests'), ['--no-colors=1'], {
-    stdio: ['ignore', 'pipe', 'inherit'],
-    onOutput: (text) => {
-      output += text;
-      process.stdout.write(text);
+  return {
+    async run() {
+      let output = '';
+      const status = await run(path.join(NATIVE_BUILD, 'handlebody_tests'), ['--no-colors=1'], {
+        stdio: ['ignore', 'pipe', 'inherit'],
+        onOutput: (text) => {
+          output += text;
+        },
+      });
+      // In one piece: another suite may be talking meanwhile.
+      process.stdout.write(output);
+      return readDoctest(output, status);
     },
-  });
-  return { counts: readDoctest(output, status) };
+  };
 }
 
 /** The numbers of doctest's summary; a run that broke off without one is a failure. @param {string} output @param {number} status @returns {Counts} */
