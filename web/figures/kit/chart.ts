@@ -12,7 +12,7 @@ export interface Label {
 
 /** A curve as the chart draws it. */
 export interface Curve {
-  /** Of the model, for emphasis. */
+  /** By which it is emphasized. */
   readonly key: number;
   readonly slot: number;
   readonly label: Label;
@@ -116,13 +116,6 @@ export class Chart {
   at(px: number, py: number): [number, number] {
     const [left, right, bottom, top] = this.#frame;
     return [left + (px / this.width) * (right - left), top - (py / this.height) * (top - bottom)];
-  }
-
-  /** Lets all curves fade but one model's; none for 0. */
-  emphasize(key: number): void {
-    for (const group of [this.#curves, this.#names])
-      for (const element of group.children)
-        element.toggleAttribute('data-faded', key !== 0 && (element as SVGElement).dataset.key !== String(key));
   }
 
   draw(curves: readonly Curve[]): void {

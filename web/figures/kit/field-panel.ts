@@ -24,7 +24,6 @@ export interface FieldActions extends PointActions {
 export type Ends = readonly [number, number, number, number];
 
 interface FieldPanelOptions {
-  readonly slot: number;
   /** Its handles are those that the keyboard reaches. */
   readonly first: boolean;
   readonly frame: () => Frame;
@@ -51,7 +50,7 @@ export class FieldPanel {
   #side = 0;
   #width = 0;
 
-  constructor({ slot, first, frame, actions, resized }: FieldPanelOptions) {
+  constructor({ first, frame, actions, resized }: FieldPanelOptions) {
     const width = () => this.#width;
     const board: Board = {
       get size() {
@@ -87,7 +86,7 @@ export class FieldPanel {
       'figure',
       { class: 'field' },
       this.area,
-      h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
+      h('figcaption', {}, swatch(0), h('span', {}, this.#name, ' ', this.#detail)),
     );
     onScreenChange(this.area, () => this.measure() && resized(), this.#left.signal);
   }
@@ -111,7 +110,8 @@ export class FieldPanel {
     return this.canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
   }
 
-  name({ name, detail }: Label, slot: number): void {
+  name({ name, detail }: Label, slot: number, key: number): void {
+    this.element.dataset.key = String(key);
     if (this.#name.textContent !== name) this.#name.textContent = name;
     if (this.#detail.textContent !== detail) this.#detail.textContent = detail;
     const path = this.element.querySelector<SVGElement>('.swatch path');
@@ -120,10 +120,6 @@ export class FieldPanel {
 
   set stale(stale: boolean) {
     this.element.toggleAttribute('data-stale', stale);
-  }
-
-  set faded(faded: boolean) {
-    this.element.toggleAttribute('data-faded', faded);
   }
 
   /** Colors, lines of equal value, and where the section runs. */
@@ -158,10 +154,6 @@ export class FieldPanel {
       handle?.style.setProperty('--fill', colors.css(values[i] as number));
       handle?.toggleAttribute('data-outlier', outliers.includes(i));
     }
-  }
-
-  handle(i: number): HTMLElement | undefined {
-    return this.#handles.element(i);
   }
 
   dispose(): void {
