@@ -104,24 +104,24 @@ export function autoRange(label: string, options: RangeOptions<number | 'auto'>)
   };
 }
 
-/** The first option is the one that it begins with. */
+/** It begins with the first option, or with `value`. */
 export function choice<T extends string>(
   label: string,
   options: readonly Option<T>[],
-  { rare = false, open = false }: { readonly rare?: boolean; readonly open?: boolean } = {},
+  { rare = false, open = false, value }: { readonly rare?: boolean; readonly open?: boolean; readonly value?: NoInfer<T> } = {},
 ): Choice<T> {
   const [first] = options;
   if (!first) throw new Error('A choice needs an option.');
-  const values: readonly T[] = options.map(([value]) => value);
+  const values: readonly T[] = options.map(([option]) => option);
   return {
     type: 'choice',
     label,
     options,
-    initial: first[0],
+    initial: value ?? first[0],
     rare,
     open,
-    read: (text) => values.find((value) => value === text),
-    write: (value) => value,
+    read: (text) => values.find((option) => option === text),
+    write: String,
   };
 }
 

@@ -28,7 +28,7 @@ interface FieldMap {
   readonly stale?: boolean;
 }
 
-interface FieldPlotOptions<M, S> extends PointOptions<S>, Pick<Panel<M, S>, 'shown'> {
+interface FieldPlotOptions<M, S> extends PointOptions<M, S>, Pick<Panel<M, S>, 'shown'> {
   /** Left, right, bottom, top. */
   readonly frame: Frame | ((state: S) => Frame);
   /** Functions of the plane, a map each. */
@@ -55,7 +55,7 @@ export function fieldPlot<M, S>(options: FieldPlotOptions<M, S>): Panel<M, S> {
 
 class FieldPlot<M, S> implements OpenPanel<M, S> {
   readonly element: HTMLElement;
-  readonly #kit: Kit<S>;
+  readonly #kit: Kit<S, M>;
   readonly #options: FieldPlotOptions<M, S>;
   readonly #points: PointEditing;
   readonly #maps = h('div', { class: 'fields', role: 'group', 'aria-label': 'Maps' });
@@ -75,7 +75,7 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
   /** What was painted last, and whether at leisure. */
   #painted: { readonly made: M; readonly state: S; readonly fine: boolean } | undefined;
 
-  constructor(kit: Kit<S>, options: FieldPlotOptions<M, S>) {
+  constructor(kit: Kit<S, M>, options: FieldPlotOptions<M, S>) {
     [this.#kit, this.#options] = [kit, options];
     this.#points = pointActions(kit, (state) => this.#frame(state), options);
     this.#scale = new ColorScale((value) => this.#points.setValue(this.#points.picked, value));

@@ -15,9 +15,11 @@ export interface Work<M = unknown> {
 }
 
 /** What a panel can ask for. */
-export interface Kit<S> {
+export interface Kit<S, M = unknown> {
   readonly hb: HandlebodyRuntime;
   readonly state: S;
+  /** What was made last, once there is something. */
+  readonly made: M | undefined;
   /** Sets channels: what depends on them is made and drawn with the next frame. */
   change(patch: Partial<S>): void;
   /** Draws with the next frame, though nothing changed: another size, theme or pixel ratio. */
@@ -38,7 +40,7 @@ export interface Panel<M, S> {
   readonly place?: 'above' | 'below' | 'tools';
   /** Whether it is there in this state; it is opened when it is first. */
   shown?(state: S): boolean;
-  open(kit: Kit<S>): OpenPanel<M, S> | Promise<OpenPanel<M, S>>;
+  open(kit: Kit<S, M>): OpenPanel<M, S> | Promise<OpenPanel<M, S>>;
 }
 
 export interface OpenPanel<M, S> {

@@ -32,8 +32,8 @@ interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
   /** Lower than others: it goes with another one. */
   readonly low?: boolean;
   /** Points that are dragged, added by a double click and removed. */
-  readonly points?: PointOptions<S>;
-  draw(plot: LinePlot<S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
+  readonly points?: PointOptions<M, S>;
+  draw(plot: LinePlot<M, S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
 }
 
 /** A panel with curves over a line, and handles on it. */
@@ -42,7 +42,7 @@ export function linePlot<M, S>(options: LinePlotOptions<M, S>): Panel<M, S> {
   return {
     ...(shown && { shown }),
     open: (kit) => {
-      const plot = new LinePlot<S>(kit, options);
+      const plot = new LinePlot<M, S>(kit, options);
       return {
         element: plot.element,
         draw: (made, state) => {
@@ -68,10 +68,10 @@ interface CurveOptions {
 }
 
 /** What a figure draws with: curves and handles are named anew for each frame. */
-class LinePlot<S> {
+class LinePlot<M, S> {
   readonly element: HTMLElement;
-  readonly #kit: Kit<S>;
-  readonly #options: Omit<LinePlotOptions<never, S>, 'draw'>;
+  readonly #kit: Kit<S, M>;
+  readonly #options: Omit<LinePlotOptions<M, S>, 'draw'>;
   readonly #chart: Chart;
   readonly #title = h('h3', { class: 'chart-title' });
   /** Which line is whose, where there is no room beside the curves. */
@@ -89,7 +89,7 @@ class LinePlot<S> {
   #used = 0;
   #listed = '';
 
-  constructor(kit: Kit<S>, options: Omit<LinePlotOptions<never, S>, 'draw'>) {
+  constructor(kit: Kit<S, M>, options: Omit<LinePlotOptions<M, S>, 'draw'>) {
     [this.#kit, this.#options] = [kit, options];
     this.#chart = new Chart(true, () => kit.redraw());
     this.#chart.frame = this.#frame(kit.state);

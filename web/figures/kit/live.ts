@@ -294,18 +294,22 @@ export class Live<C extends Channels, M extends Disposable> {
         if (slot.opened) opened.dispose();
         else slot.opened = opened;
       };
-      return opening instanceof Promise ? [opening.then(keep)] : keep(opening) ?? [];
+      return opening instanceof Promise ? [opening.then(keep)] : (keep(opening) ?? []);
     });
     return coming.length > 0 ? Promise.all(coming) : undefined;
   }
 
-  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>> {
+  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>, M> {
+    const made = () => this.#made;
     const state = () => this.#visible;
     const address = () => this.#options.address?.(this.state) ?? this.state;
     return {
       hb,
       get state() {
         return state();
+      },
+      get made() {
+        return made();
       },
       change: (patch) => this.change(patch),
       redraw: () => this.#stir(),

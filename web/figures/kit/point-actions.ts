@@ -4,7 +4,7 @@ import type { Kit } from './figure.ts';
 import { addPoint, MOST_POINTS, movePoint, type PointSet, placeOf, removePoint, tidy } from './point-set.ts';
 import type { Frame } from './samples.ts';
 
-export interface PointOptions<S> {
+export interface PointOptions<M, S> {
   /** The channel of the points. */
   readonly points: keyof S & string;
   /** The channel of the chosen one's number, −1 for none; else it is known to the picture alone. */
@@ -12,9 +12,9 @@ export interface PointOptions<S> {
   /** The values that points of the plane can be given. */
   range?(state: S): readonly [low: number, high: number];
   /** The value of a new point of the plane; 0 where this is left out. */
-  guess?(place: readonly number[]): number;
+  guess?(made: M, state: S, place: readonly number[]): number;
   /** Points that stand out. */
-  outliers?(): readonly number[];
+  outliers?(made: M): readonly number[];
 }
 
 /** What can be done to the points of a channel, by handles and otherwise. */
@@ -25,8 +25,10 @@ export interface PointEditing extends FieldActions {
   readonly outliers: readonly number[];
 }
 
-export function pointActions<S>(kit: Kit<S>, frame: (state: S) => Frame, options: PointOptions<S>): PointEditing {
-  const { points, range, guess = () => 0, outliers = () => [] } = options;
+export function pointActions<M, S>(kit: Kit<S, M>, frame: (state: S) => Frame, options: PointOptions<M, S>): PointEditing {
+  const { points, range } = options;
+  const guess = (place: readonly number[]) => (kit.made && options.guess?.(kit.made, kit.state, place)) ?? 0;
+  const outliers = () => (kit.made && options.outliers?.(kit.made)) ?? [];
   let picked = -1;
   const set = () => kit.state[points] as PointSet;
   const put = (changed: PointSet, pick = actions.picked) => {
@@ -68,8 +70,7 @@ export function pointActions<S>(kit: Kit<S>, frame: (state: S) => Frame, options
       const { values } = set();
       const [low, high] = range?.(kit.state) ?? [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY];
       const span = range ? high - low : Math.max(...values) - Math.min(...values) || 1;
-      if (values[i] !== undefined)
-        put({ ...set(), values: values.with(i, tidy(Math.min(Math.max(value, low), high), span)) });
+      if (values[i] !== undefined) put({ ...set(), values: values.with(i, tidy(Math.min(Math.max(value, low), high), span)) });
     },
     pick: (i) => {
       if (i === actions.picked) return;

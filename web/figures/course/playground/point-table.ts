@@ -1,55 +1,59 @@
-import { h } from '../../ui/dom.ts';
-import { focusNeighbor } from '../../ui/focus.ts';
-import { type Experiment, MOST_POINTS, placeOf } from './experiment.ts';
-
-interface TableActions {
-  /** Column of a point: a coordinate, or the value behind them. */
-  type(i: number, column: number, number: number): void;
-  pick(i: number): void;
-  remove(i: number): void;
-  add(): void;
-}
+import { computable } from '../../../ui/address.ts';
+import { h } from '../../../ui/dom.ts';
+import { focusNeighbor } from '../../../ui/focus.ts';
+import type { Kit, OpenPanel } from '../../kit/figure.ts';
+import type { PointEditing } from '../../kit/point-actions.ts';
+import { MOST_POINTS, placeOf } from '../../kit/point-set.ts';
+import type { State } from './channels.ts';
 
 /** The points as numbers that can be typed: what can be dragged can be written. */
-export class PointTable {
+export class PointTable implements OpenPanel<unknown, State> {
   readonly element: HTMLElement;
   readonly #body = h('tbody');
   readonly #head = h('tr');
-  readonly #actions: TableActions;
+  readonly #kit: Kit<State>;
+  readonly #actions: PointEditing;
   readonly #add: HTMLButtonElement;
   #columns = 0;
   #shown: number[][] = [];
 
-  constructor(actions: TableActions) {
-    this.#actions = actions;
-    this.#add = h('button', { type: 'button', class: 'button', onclick: () => actions.add() }, 'Add a point');
+  /** `add` adds a point where there are fewest. */
+  constructor(kit: Kit<State>, actions: PointEditing, add: () => void) {
+    [this.#kit, this.#actions] = [kit, actions];
+    this.#add = h('button', { type: 'button', class: 'button', onclick: add }, 'Add a point');
     this.element = h(
       'details',
       { class: 'points-part' },
-      h('summary', {}, h('h2', {}, 'Points as numbers')),
+      h('summary', {}, h('h3', {}, 'Points as numbers')),
       h('table', { class: 'points-table' }, h('thead', {}, this.#head), this.#body),
       this.#add,
     );
-    this.element.addEventListener('toggle', () => this.#last && this.update(this.#last));
+    this.element.addEventListener('toggle', () => this.#update());
   }
 
-  #last: Experiment | undefined;
+  draw(): void {
+    this.#update();
+  }
 
-  update(experiment: Experiment): void {
-    this.#last = experiment;
+  dispose(): void {
+    this.element.remove();
+  }
+
+  #update(): void {
     if (!(this.element as HTMLDetailsElement).open) return;
-    const { dimension, values, points, picked } = experiment;
+    const { p, pick, in: frame } = this.#kit.state;
+    const { dimension, values } = p;
     if (this.#columns !== dimension + 1) this.#setColumns(dimension + 1);
     while (this.#body.childElementCount > values.length) {
       this.#body.lastElementChild?.remove();
       this.#shown.pop();
     }
     while (this.#body.childElementCount < values.length) this.#body.append(this.#row(this.#body.childElementCount));
-    const span = experiment.frame[1] - experiment.frame[0];
+    const span = frame[1] - frame[0];
     for (let i = 0; i < values.length; i++) {
       const row = this.#body.children[i] as HTMLElement;
-      row.toggleAttribute('data-picked', i === picked);
-      const numbers = dimension === 1 ? placeOf(experiment, i) : [...placeOf(experiment, i), values[i] as number];
+      row.toggleAttribute('data-picked', i === pick);
+      const numbers = dimension === 1 ? placeOf(p, i) : [...placeOf(p, i), values[i] as number];
       const inputs = row.querySelectorAll('input');
       numbers.forEach((number, column) => {
         const input = inputs[column] as HTMLInputElement;
@@ -60,7 +64,7 @@ export class PointTable {
       });
       (row.querySelector('button') as HTMLButtonElement).disabled = values.length === 1;
     }
-    this.#add.disabled = points.length / dimension >= MOST_POINTS;
+    this.#add.disabled = values.length >= MOST_POINTS;
   }
 
   #setColumns(columns: number): void {
@@ -82,21 +86,35 @@ export class PointTable {
         type: 'number',
         'aria-label': `${name} of point ${i}`,
         onfocus: () => this.#actions.pick(i),
-        onblur: () => this.#last && this.update(this.#last),
+        onblur: () => this.#update(),
         onchange: () => {
           if (!Number.isFinite(input.valueAsNumber)) return;
           this.#shown[i] = [];
-          this.#actions.type(i, column, input.valueAsNumber);
+          this.#type(i, column, computable(input.valueAsNumber));
         },
       });
       return h('td', {}, input);
     });
     const act = () => {
       this.#actions.remove(i);
-      if (this.#last) this.update(this.#last);
+      this.#update();
       focusNeighbor(this.#body.querySelectorAll('button'), i, this.#add);
     };
     const remove = h('button', { type: 'button', class: 'tool-button', 'aria-label': `Remove point ${i}`, onclick: act }, '×');
     return h('tr', {}, h('th', { scope: 'row' }, String(i)), ...cells, h('td', {}, remove));
+  }
+
+  /** A number that somebody typed: taken as it is, and the frame makes room for it. */
+  #type(i: number, column: number, number: number): void {
+    const { p, in: frame, range, d } = this.#kit.state;
+    const next =
+      column === d ? { ...p, values: p.values.with(i, number) } : { ...p, places: p.places.with(i * d + column, number) };
+    const [across, up] = placeOf(next, i);
+    const [left, right, bottom, top] = frame;
+    this.#kit.change({
+      p: next,
+      in: [Math.min(left, across), Math.max(right, across), Math.min(bottom, up), Math.max(top, up)],
+      ...(d === 2 && { range: [Math.min(range[0], number), Math.max(range[1], number)] }),
+    });
   }
 }

@@ -1,8 +1,8 @@
-import type { RbfWarning } from '../../../wasm/ts/runtime.ts';
-import { brief } from '../../figures/kit/words.ts';
-import { h } from '../../ui/dom.ts';
-import { explain } from '../../ui/explain.ts';
-import { focusNeighbor } from '../../ui/focus.ts';
+import type { RbfWarning } from '../../../../wasm/ts/runtime.ts';
+import { h } from '../../../ui/dom.ts';
+import { explain } from '../../../ui/explain.ts';
+import { focusNeighbor } from '../../../ui/focus.ts';
+import { brief } from '../../kit/words.ts';
 import type { Settings } from './experiment.ts';
 
 interface Remedy {

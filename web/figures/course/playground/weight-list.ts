@@ -1,5 +1,5 @@
-import { brief } from '../../figures/kit/words.ts';
-import { h } from '../../ui/dom.ts';
+import { h } from '../../../ui/dom.ts';
+import { brief } from '../../kit/words.ts';
 
 /** The weights of a fit's kernels as bars around zero, in the largest one's scale. */
 export class WeightList {
