@@ -528,7 +528,7 @@ describe('manners', () => {
     });
     await page.goto(`${inject('site')}learn/interpolation/`);
     await page.waitForSelector('[data-figure=playground][data-state=failed]');
-    expect(await page.getByRole('alert').textContent()).toMatch(/WebAssembly.*\.$/);
+    expect(await page.getByRole('alert').locator('span').textContent()).toMatch(/WebAssembly.*\.$/);
     expect(await violations(page)).toEqual([]);
     await page.close();
   });

@@ -104,12 +104,13 @@ export function autoRange(label: string, options: RangeOptions<number | 'auto'>)
   };
 }
 
-/** It begins with the first option, or with `value`. */
+/** Options by their values, or as a list where that has words to explain them. It begins with the first one, or with `value`. */
 export function choice<T extends string>(
   label: string,
-  options: readonly Option<T>[],
+  given: readonly Option<T>[] | Readonly<Record<T, string>>,
   { rare = false, open = false, value }: { readonly rare?: boolean; readonly open?: boolean; readonly value?: NoInfer<T> } = {},
 ): Choice<T> {
+  const options = 'length' in given ? (given as readonly Option<T>[]) : (Object.entries(given) as [T, string][]);
   const [first] = options;
   if (!first) throw new Error('A choice needs an option.');
   const values: readonly T[] = options.map(([option]) => option);

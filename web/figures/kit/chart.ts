@@ -17,10 +17,8 @@ export interface Curve {
   readonly slot: number;
   readonly label: Label;
   readonly xs: Float64Array;
-  /** One number a place, `stride` apart from `first` on. */
+  /** One number a place. */
   readonly ys: Float64Array;
-  readonly stride?: number;
-  readonly first?: number;
   /** Not of the present data, because those were refused. */
   readonly stale?: boolean;
   /** Dashed in any case: the sum of what is drawn below it. */
@@ -124,15 +122,15 @@ export class Chart {
     curves.forEach((curve, i) => {
       const path = this.#curves.children[i] as SVGPathElement;
       mark(path, curve);
-      path.setAttribute('d', this.path(curve.xs, curve.ys, curve.stride, curve.first));
+      path.setAttribute('d', this.path(curve.xs, curve.ys));
     });
     this.#drawNames(curves);
   }
 
-  path(xs: Float64Array, ys: ArrayLike<number>, stride = 1, first = 0): string {
+  path(xs: Float64Array, ys: ArrayLike<number>): string {
     const [left, right, bottom, top] = this.#frame;
     const [ax, ay] = [this.width / (right - left), this.height / (bottom - top)];
-    return curvePath(xs, ys, [ax, -left * ax, ay, -top * ay], stride, first);
+    return curvePath(xs, ys, [ax, -left * ax, ay, -top * ay]);
   }
 
   #drawNames(curves: readonly Curve[]): void {
@@ -145,8 +143,8 @@ export class Chart {
       ),
     );
     if (!this.named) return;
-    const ends = curves.map(({ ys, stride = 1, first = 0 }) => {
-      const y = this.y(ys[first + (ys.length / stride - 1) * stride] ?? 0);
+    const ends = curves.map(({ ys }) => {
+      const y = this.y(ys.at(-1) ?? 0);
       return Number.isNaN(y) ? this.height / 2 : Math.min(Math.max(y, 6), this.height - 6);
     });
     const gaps = curves.map(({ label }) => (label.detail ? 2 * LINE + 4 : LINE + 4));

@@ -66,7 +66,7 @@ export interface PartControl<S> {
 }
 
 /** A choice between presets of two kinds, each of which is found again as it was left. */
-export interface Sides<C extends Channels> {
+interface Sides<C extends Channels> {
   readonly label: string;
   readonly options: readonly (readonly [label: string, preset: string])[];
   /** The number of the option that a state is of. */

@@ -402,7 +402,7 @@ export class Live<C extends Channels, M extends Disposable> {
     } catch (error) {
       // What was asked for meanwhile tells its own end.
       if (this.#disposed || (work.signal.aborted && this.#work !== work)) return;
-      this.#failed(error, state);
+      this.#failed(error, { preset, state });
     } finally {
       clearTimeout(patience);
       if (this.#work === work) this.#end();
@@ -437,8 +437,11 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#progress.end();
   }
 
-  #failed(error: unknown, asked: StateOf<C>): void {
-    const again = () => this.change(asked);
+  #failed(error: unknown, asked: Shown<C>): void {
+    const again = () => {
+      this.#preset = asked.preset;
+      this.change(asked.state);
+    };
     if (!isAbort(error)) this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {

@@ -74,7 +74,7 @@ export class Surfaces {
     onInterruption(this.#renderer.domElement, say, redraw);
     const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
       const input = h('input', { type: 'range', min: low, max: high, step: 1, value, oninput: () => change(input.valueAsNumber) });
-      return h('label', {}, h('span', {}, label), input);
+      return h('label', { class: 'control' }, label, input);
     };
     this.controls = h(
       'div',

@@ -25,26 +25,11 @@ const movingLeastSquares: Kind = {
   id: 'mls',
   dimensions: [1, 2],
   parameters: {
-    degree: choice(
-      'Polynomial',
-      [
-        ['0', 'constant'],
-        ['1', 'linear'],
-        ['2', 'quadratic'],
-      ],
-      { value: '1' },
-    ),
-    weight: choice('Weight', [
-      ['inverse-distance', 'inverse distance'],
-      ['gaussian', 'Gaussian'],
-      ['wendland', 'Wendland'],
-    ]),
+    degree: choice('Polynomial', { 0: 'constant', 1: 'linear', 2: 'quadratic' }, { value: '1' }),
+    weight: choice('Weight', { 'inverse-distance': 'inverse distance', gaussian: 'Gaussian', wendland: 'Wendland' }),
     power: power(4),
     epsilon,
-    fit: choice('Width', [
-      ['auto', 'from the spacing of the points'],
-      ['own', 'set by hand'],
-    ]),
+    fit: choice('Width', { auto: 'from the spacing of the points', own: 'set by hand' }),
     width: range('Width by hand', { from: 0.02, to: 50, value: 2, scale: 'log' }),
   },
   when: {
@@ -75,10 +60,7 @@ const movingLeastSquares: Kind = {
     }),
 };
 
-const outside = choice('Outside the hull', [
-  ['nearest', 'the value of the nearest place in it'],
-  ['nan', 'nothing'],
-]);
+const outside = choice('Outside the hull', { nearest: 'the value of the nearest place in it', nan: 'nothing' });
 
 const simplexLinear: Kind = {
   id: 'linear',
@@ -104,10 +86,7 @@ const tensionSpline: Kind = {
     beta: logarithmic('β, against slope', 1e-3, 1000),
     gamma: logarithmic('γ, against size', 1e-3, 1000),
     smoothing: logarithmic('Smoothing', 1e-6, 10),
-    ends: choice('Ends', [
-      ['natural', 'natural'],
-      ['zero-slope', 'with zero slope'],
-    ]),
+    ends: choice('Ends', { natural: 'natural', 'zero-slope': 'with zero slope' }),
   },
   when: { ends: (_, dimension) => dimension === 1 },
   label: ({ beta, gamma, smoothing, ends }, dimension) => ({

@@ -38,11 +38,11 @@ const hasOrder = ({ kernel }: Settings) => kernel === 'polyharmonic' || kernel =
 
 const parameters = {
   kernel: choice('Kernel', KERNEL_NAMES),
-  fit: choice('Width', [
-    ['auto', 'from the spacing of the points'],
-    ['leave-one-out', 'with the least leave-one-out error'],
-    ['own', 'set by hand'],
-  ]),
+  fit: choice('Width', {
+    auto: 'from the spacing of the points',
+    'leave-one-out': 'with the least leave-one-out error',
+    own: 'set by hand',
+  }),
   width: range('Width by hand', { from: 0.02, to: 50, value: 1, scale: 'log' }),
   order: range('Order', { from: 1, to: 4, value: 2, step: 1 }),
   smoothing: range('Smoothing', { from: 1e-10, to: 10, value: 0, scale: 'log-zero' }),
@@ -60,22 +60,10 @@ const parameters = {
     { rare: true },
   ),
   support: range('Support, in widths', { from: 1, to: 8, value: 4, rare: true }),
-  centers: choice(
-    'Centers',
-    [
-      ['1', 'at every point'],
-      ['2', 'at every second point'],
-      ['3', 'at every third point'],
-    ],
-    { rare: true },
-  ),
+  centers: choice('Centers', { 1: 'at every point', 2: 'at every second point', 3: 'at every third point' }, { rare: true }),
   robust: choice(
     'Misfits',
-    [
-      ['all', 'count by their squares'],
-      ['least-absolute', 'count by their size'],
-      ['least-median', 'of the better half count'],
-    ],
+    { all: 'count by their squares', 'least-absolute': 'count by their size', 'least-median': 'of the better half count' },
     { rare: true },
   ),
   stretch: range('Stretch', { from: 0.2, to: 5, value: 1, scale: 'log', rare: true }),

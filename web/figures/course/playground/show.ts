@@ -24,12 +24,7 @@ export const parts: readonly PartControl<State>[] = [
   part('isolines', toggle('Isolines'), ({ d, show }) => d === 2 && !show.surface),
   part(
     'section',
-    choice('Section', [
-      ['off', 'none'],
-      ['across', 'across'],
-      ['up', 'from below to above'],
-      ['diagonal', 'along the diagonal'],
-    ]),
+    choice('Section', { off: 'none', across: 'across', up: 'from below to above', diagonal: 'along the diagonal' }),
     inThePlane,
   ),
   {
@@ -41,21 +36,14 @@ export const parts: readonly PartControl<State>[] = [
     read: ({ show }) => show.sectionAt,
     write: ({ show }, value: number) => ({ show: { ...show, sectionAt: Number(value.toFixed(3)) } }),
   },
-  part(
-    'colors',
-    choice('Colors', [
-      ['viridis', 'viridis'],
-      ['around-zero', 'blue and orange around zero'],
-    ]),
-    inThePlane,
-  ),
+  part('colors', choice('Colors', { viridis: 'viridis', 'around-zero': 'blue and orange around zero' }), inThePlane),
   part(
     'outliers',
-    choice('Look for outliers', [
-      ['off', 'no'],
-      ['row-sum', 'by their part of the function norm'],
-      ['leave-one-out', 'by leaving each out'],
-      ['residual', 'farthest from the smoothed curve'],
-    ]),
+    choice('Look for outliers', {
+      off: 'no',
+      'row-sum': 'by their part of the function norm',
+      'leave-one-out': 'by leaving each out',
+      residual: 'farthest from the smoothed curve',
+    }),
   ),
 ];
