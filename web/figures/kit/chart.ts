@@ -1,4 +1,4 @@
-import { h, readable, svg } from '../../ui/dom.ts';
+import { h, match, readable, svg, write } from '../../ui/dom.ts';
 import { onScreenChange } from '../../ui/screen.ts';
 import { curvePath, spreadLabels } from './path.ts';
 import type { Frame } from './samples.ts';
@@ -118,7 +118,7 @@ export class Chart {
 
   draw(curves: readonly Curve[]): void {
     if (this.width === 0 && !this.measure()) return;
-    match(this.#curves, 'path', curves.length);
+    match(this.#curves, curves.length, () => svg('path'));
     curves.forEach((curve, i) => {
       const path = this.#curves.children[i] as SVGPathElement;
       mark(path, curve);
@@ -134,7 +134,7 @@ export class Chart {
   }
 
   #drawNames(curves: readonly Curve[]): void {
-    match(this.#names, 'g', this.named ? curves.length : 0, () =>
+    match(this.#names, this.named ? curves.length : 0, () =>
       svg(
         'g',
         {},
@@ -158,8 +158,8 @@ export class Chart {
       const [end, place] = [ends[i] as number, places[i] as number];
       leader.setAttribute('d', `M2 ${end.toFixed(1)}L14 ${place.toFixed(1)}`);
       text.setAttribute('y', (place + 4 - (curve.label.detail ? LINE / 2 : 0)).toFixed(1));
-      write(name, curve.label.name, 23);
-      write(detail, curve.label.detail, 28);
+      write(name, brief(curve.label.name, 23));
+      write(detail, brief(curve.label.detail, 28));
     });
   }
 
@@ -203,21 +203,9 @@ export class Chart {
   }
 }
 
-/** Makes a group hold as many elements as wanted, keeping those it has. */
-export function match<K extends keyof SVGElementTagNameMap>(
-  group: SVGGElement,
-  tag: K,
-  count: number,
-  make: () => SVGElement = () => svg(tag),
-): void {
-  while (group.childElementCount > count) group.lastElementChild?.remove();
-  while (group.childElementCount < count) group.append(make());
-}
-
 /** A text, shortened to what has room beside a curve. */
-function write(element: Element, text: string, most: number): void {
-  const short = text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
-  if (element.textContent !== short) element.textContent = short;
+function brief(text: string, most: number): string {
+  return text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
 }
 
 function mark(element: SVGElement, { key, slot, stale, sum }: Curve): void {

@@ -1,4 +1,4 @@
-import { h } from '../../ui/dom.ts';
+import { h, write } from '../../ui/dom.ts';
 import { onScreenChange } from '../../ui/screen.ts';
 import type { Label } from './chart.ts';
 import type { ColorMap } from './color-map.ts';
@@ -112,8 +112,8 @@ export class FieldPanel {
 
   name({ name, detail }: Label, slot: number, key: number): void {
     this.element.dataset.key = String(key);
-    if (this.#name.textContent !== name) this.#name.textContent = name;
-    if (this.#detail.textContent !== detail) this.#detail.textContent = detail;
+    write(this.#name, name);
+    write(this.#detail, detail);
     const path = this.element.querySelector<SVGElement>('.swatch path');
     if (path) path.dataset.slot = String(slot);
   }

@@ -1,5 +1,5 @@
-import { h, svg } from '../../ui/dom.ts';
-import { Chart, type Curve, match } from './chart.ts';
+import { h, match, svg, write } from '../../ui/dom.ts';
+import { Chart, type Curve } from './chart.ts';
 import type { Kit, Panel } from './figure.ts';
 import { Handles, type PointActions } from './handles.ts';
 import { type PointEditing, type PointOptions, pointActions } from './point-actions.ts';
@@ -151,8 +151,7 @@ class LinePlot<M, S> {
 
   begin(state: S): void {
     [this.#curves, this.#paths, this.#rules, this.#used] = [[], [], [], 0];
-    const title = this.#options.title?.(state) ?? '';
-    if (this.#title.textContent !== title) this.#title.textContent = title;
+    write(this.#title, this.#options.title?.(state) ?? '');
     this.#chart.measure();
     this.#chart.frame = this.#frame(state);
     this.#xs = this.#samples.spread(this.#chart.frame, this.#options.through?.(state) ?? this.#points?.set.places ?? []);
@@ -160,7 +159,7 @@ class LinePlot<M, S> {
 
   end(): void {
     this.#chart.draw(this.#curves);
-    match(this.#areas, 'path', this.#paths.length);
+    match(this.#areas, this.#paths.length, () => svg('path'));
     this.#paths.forEach((d, i) => {
       const path = this.#areas.children[i] as SVGPathElement;
       path.setAttribute('d', d);

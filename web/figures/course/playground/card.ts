@@ -1,4 +1,4 @@
-import { h } from '../../../ui/dom.ts';
+import { h, write } from '../../../ui/dom.ts';
 import { type PartShown, partControls } from '../../kit/controls.ts';
 import { swatch } from '../../kit/swatch.ts';
 import { brief, conditionText, health } from '../../kit/words.ts';
@@ -58,13 +58,13 @@ export class Card {
 
     this.#toggle = h('button', {
       type: 'button',
-      class: 'tool-button chevron',
+      class: 'dismiss chevron',
       'aria-controls': id,
       'aria-expanded': open,
       onclick: () => this.open(this.#body.hidden),
     });
     this.#toggle.ariaExpanded = String(open);
-    this.#remove = h('button', { type: 'button', class: 'tool-button', onclick: () => actions.remove(key) }, '×');
+    this.#remove = h('button', { type: 'button', class: 'dismiss', onclick: () => actions.remove(key) }, '×');
     const head = h(
       'div',
       { class: 'card-head' },
@@ -132,8 +132,4 @@ export class Card {
 
 function hasWidth({ model }: Fit): boolean {
   return kindOf(model.kind)?.when?.fit?.(model.settings, 1) ?? false;
-}
-
-function write(element: HTMLElement, text: string): void {
-  if (element.textContent !== text) element.textContent = text;
 }

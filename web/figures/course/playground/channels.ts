@@ -101,32 +101,34 @@ function readModels(text: string, dimension: 1 | 2, left: string[]): Model[] {
   return models;
 }
 
+/** What is shown besides what is shown at first, by the words that say so. */
+const WORDS: Readonly<Record<string, Partial<Show>>> = {
+  kernels: { kernels: true },
+  cardinal: { cardinal: true },
+  'outliers.row-sum': { outliers: 'row-sum' },
+  'outliers.leave-one-out': { outliers: 'leave-one-out' },
+  'outliers.residual': { outliers: 'residual' },
+  'no-isolines': { isolines: false },
+  surface: { surface: true },
+  'around-zero': { colors: 'around-zero' },
+  'section.across': { section: 'across' },
+  'section.up': { section: 'up' },
+  'section.diagonal': { section: 'diagonal' },
+};
+
 /** "kernels,section.across,at.0.5": the switches that are on and the choices that are made. */
 function showText(show: Show): string {
-  const said: string[] = [];
-  if (show.kernels) said.push('kernels');
-  if (show.cardinal) said.push('cardinal');
-  if (show.outliers !== 'off') said.push(`outliers.${show.outliers}`);
-  if (!show.isolines) said.push('no-isolines');
-  if (show.surface) said.push('surface');
-  if (show.section !== 'off') said.push(`section.${show.section}`, `at.${show.sectionAt}`);
-  if (show.colors !== 'viridis') said.push(show.colors);
-  return said.join(',');
+  const isSo = (part: Partial<Show>) => Object.entries(part).every(([key, value]) => show[key as keyof Show] === value);
+  const said = Object.keys(WORDS).filter((word) => isSo(WORDS[word] ?? {}));
+  return [...said, ...(show.section === 'off' ? [] : [`at.${show.sectionAt}`])].join(',');
 }
 
 function readShow(text: string, left: string[]): Show {
   let show = PLAIN;
   for (const word of text.split(',')) {
-    const [name = '', ...rest] = word.split('.');
-    const value = rest.join('.');
-    if (name === 'kernels' || name === 'cardinal' || name === 'surface') show = { ...show, [name]: true };
-    else if (name === 'no-isolines') show = { ...show, isolines: false };
-    else if (name === 'around-zero') show = { ...show, colors: 'around-zero' };
-    else if (name === 'outliers' && (value === 'row-sum' || value === 'leave-one-out' || value === 'residual'))
-      show = { ...show, outliers: value };
-    else if (name === 'section' && (value === 'across' || value === 'up' || value === 'diagonal'))
-      show = { ...show, section: value };
-    else if (name === 'at' && numbersOf(value)?.length === 1) show = { ...show, sectionAt: Number(value) };
+    const at = word.startsWith('at.') ? numbersOf(word.slice(3)) : undefined;
+    if (Object.hasOwn(WORDS, word)) show = { ...show, ...WORDS[word] };
+    else if (at?.length === 1) show = { ...show, sectionAt: at[0] as number };
     else if (word !== '') left.push(quoted(word));
   }
   return show;

@@ -92,7 +92,7 @@ export class ModelList implements OpenPanel<Fits, State> {
             'div',
             { class: 'offer-row' },
             ...offers.map(({ kind, settings, name }) =>
-              h('button', { type: 'button', class: 'chip', onclick: () => this.#choose(kind, settings) }, name),
+              h('button', { type: 'button', class: 'button small', onclick: () => this.#choose(kind, settings) }, name),
             ),
           ),
         ),

@@ -1,5 +1,5 @@
 import { computable } from '../../../ui/address.ts';
-import { h } from '../../../ui/dom.ts';
+import { h, match } from '../../../ui/dom.ts';
 import { focusNeighbor } from '../../../ui/focus.ts';
 import type { Kit, OpenPanel } from '../../kit/figure.ts';
 import type { PointEditing } from '../../kit/point-actions.ts';
@@ -14,8 +14,7 @@ export class PointTable implements OpenPanel<unknown, State> {
   readonly #kit: Kit<State>;
   readonly #actions: PointEditing;
   readonly #add: HTMLButtonElement;
-  #columns = 0;
-  #shown: number[][] = [];
+  #names: readonly string[] = [];
 
   /** `add` adds a point where there are fewest. */
   constructor(kit: Kit<State>, actions: PointEditing, add: () => void) {
@@ -43,35 +42,26 @@ export class PointTable implements OpenPanel<unknown, State> {
     if (!(this.element as HTMLDetailsElement).open) return;
     const { p, pick, in: frame } = this.#kit.state;
     const { dimension, values } = p;
-    if (this.#columns !== dimension + 1) this.#setColumns(dimension + 1);
-    while (this.#body.childElementCount > values.length) {
-      this.#body.lastElementChild?.remove();
-      this.#shown.pop();
-    }
-    while (this.#body.childElementCount < values.length) this.#body.append(this.#row(this.#body.childElementCount));
-    const span = frame[1] - frame[0];
-    for (let i = 0; i < values.length; i++) {
+    if (this.#names.length !== dimension + 1) this.#setColumns(dimension === 1 ? ['x', 'value'] : ['x', 'y', 'value']);
+    match(this.#body, values.length, (i) => this.#row(i));
+    const step = String(10 ** Math.floor(Math.log10((frame[1] - frame[0]) / 100)));
+    values.forEach((value, i) => {
       const row = this.#body.children[i] as HTMLElement;
       row.toggleAttribute('data-picked', i === pick);
-      const numbers = dimension === 1 ? placeOf(p, i) : [...placeOf(p, i), values[i] as number];
-      const inputs = row.querySelectorAll('input');
-      numbers.forEach((number, column) => {
-        const input = inputs[column] as HTMLInputElement;
-        if (this.#shown[i]?.[column] === number || input === document.activeElement) return;
-        (this.#shown[i] as number[])[column] = number;
-        input.value = String(Number(number.toPrecision(6)));
-        input.step = String(10 ** Math.floor(Math.log10(span / 100)));
+      const numbers = [...p.places.slice(i * dimension, (i + 1) * dimension), value];
+      row.querySelectorAll('input').forEach((input, column) => {
+        const text = String(Number((numbers[column] ?? 0).toPrecision(6)));
+        if (input === document.activeElement || (input.value === text && input.step === step)) return;
+        [input.value, input.step] = [text, step];
       });
       (row.querySelector('button') as HTMLButtonElement).disabled = values.length === 1;
-    }
+    });
     this.#add.disabled = values.length >= MOST_POINTS;
   }
 
-  #setColumns(columns: number): void {
-    this.#columns = columns;
-    this.#shown = [];
+  #setColumns(names: readonly string[]): void {
+    this.#names = names;
     this.#body.replaceChildren();
-    const names = columns === 2 ? ['x', 'value'] : ['x', 'y', 'value'];
     this.#head.replaceChildren(
       ...['point', ...names].map((name) => h('th', { scope: 'col' }, name)),
       h('td', {}, h('span', { class: 'unseen' }, 'Remove')),
@@ -79,19 +69,13 @@ export class PointTable implements OpenPanel<unknown, State> {
   }
 
   #row(i: number): HTMLElement {
-    this.#shown[i] = [];
-    const names = this.#columns === 2 ? ['x', 'value'] : ['x', 'y', 'value'];
-    const cells = names.map((name, column) => {
+    const cells = this.#names.map((name, column) => {
       const input = h('input', {
         type: 'number',
         'aria-label': `${name} of point ${i}`,
         onfocus: () => this.#actions.pick(i),
         onblur: () => this.#update(),
-        onchange: () => {
-          if (!Number.isFinite(input.valueAsNumber)) return;
-          this.#shown[i] = [];
-          this.#type(i, column, computable(input.valueAsNumber));
-        },
+        onchange: () => Number.isFinite(input.valueAsNumber) && this.#type(i, column, computable(input.valueAsNumber)),
       });
       return h('td', {}, input);
     });
@@ -100,7 +84,7 @@ export class PointTable implements OpenPanel<unknown, State> {
       this.#update();
       focusNeighbor(this.#body.querySelectorAll('button'), i, this.#add);
     };
-    const remove = h('button', { type: 'button', class: 'tool-button', 'aria-label': `Remove point ${i}`, onclick: act }, '×');
+    const remove = h('button', { type: 'button', class: 'dismiss', 'aria-label': `Remove point ${i}`, onclick: act }, '×');
     return h('tr', {}, h('th', { scope: 'row' }, String(i)), ...cells, h('td', {}, remove));
   }
 
