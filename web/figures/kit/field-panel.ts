@@ -23,14 +23,6 @@ export interface FieldActions extends PointActions {
 /** Where a section begins and ends, as parts of the picture from its upper left corner: x, y, x, y. */
 export type Ends = readonly [number, number, number, number];
 
-interface FieldPanelOptions {
-  /** Its handles are those that the keyboard reaches. */
-  readonly first: boolean;
-  readonly frame: () => Frame;
-  readonly actions: FieldActions;
-  readonly resized: () => void;
-}
-
 /** A function in the plane: a picture, its name, and the points over it. */
 export class FieldPanel {
   readonly element: HTMLElement;
@@ -50,7 +42,8 @@ export class FieldPanel {
   #side = 0;
   #width = 0;
 
-  constructor({ first, frame, actions, resized }: FieldPanelOptions) {
+  /** The handles of the first one are those that the keyboard reaches. */
+  constructor(first: boolean, frame: () => Frame, actions: FieldActions, resized: () => void) {
     const width = () => this.#width;
     const board: Board = {
       get size() {

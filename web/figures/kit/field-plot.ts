@@ -219,12 +219,8 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
   }
 
   #add(): void {
-    const panel = new FieldPanel({
-      first: this.#panels.length === 0,
-      frame: () => this.#frame(this.#kit.state),
-      resized: () => this.#kit.redraw(),
-      actions: this.#points,
-    });
+    const [frame, redraw] = [() => this.#frame(this.#kit.state), () => this.#kit.redraw()];
+    const panel = new FieldPanel(this.#panels.length === 0, frame, this.#points, redraw);
     this.#panels.push(panel);
     this.#maps.append(panel.element);
   }

@@ -56,13 +56,8 @@ export class Card {
     const id = `card-${nextId++}`;
     this.#body = h('div', { class: 'card-body', id, hidden: !open }, this.#controls.element, this.#weights.element);
 
-    this.#toggle = h('button', {
-      type: 'button',
-      class: 'dismiss chevron',
-      'aria-controls': id,
-      'aria-expanded': open,
-      onclick: () => this.open(this.#body.hidden),
-    });
+    const toggle = () => this.open(this.#body.hidden);
+    this.#toggle = h('button', { type: 'button', class: 'dismiss chevron', 'aria-controls': id, onclick: toggle });
     this.#toggle.ariaExpanded = String(open);
     this.#remove = h('button', { type: 'button', class: 'dismiss', onclick: () => actions.remove(key) }, '×');
     const head = h(
@@ -73,10 +68,8 @@ export class Card {
       this.#remove,
     );
     this.element = h('li', { class: 'card' }, head, this.#verdict, this.#warnings.element, this.#body);
-    this.element.addEventListener('pointerenter', () => actions.emphasize(key));
-    this.element.addEventListener('pointerleave', () => actions.emphasize());
-    this.element.addEventListener('focusin', () => actions.emphasize(key));
-    this.element.addEventListener('focusout', () => actions.emphasize());
+    for (const type of ['pointerenter', 'focusin']) this.element.addEventListener(type, () => actions.emphasize(key));
+    for (const type of ['pointerleave', 'focusout']) this.element.addEventListener(type, () => actions.emphasize());
   }
 
   get opened(): boolean {

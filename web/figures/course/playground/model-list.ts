@@ -90,7 +90,7 @@ export class ModelList implements OpenPanel<Fits, State> {
           h('h4', {}, group),
           h(
             'div',
-            { class: 'offer-row' },
+            { class: 'tools' },
             ...offers.map(({ kind, settings, name }) =>
               h('button', { type: 'button', class: 'button small', onclick: () => this.#choose(kind, settings) }, name),
             ),

@@ -65,7 +65,7 @@ export class WarningList {
 
   /** One sentence; its elements stay while numbers in it change, so that a button can be pressed in the midst of a drag. */
   #item(code: string) {
-    const [sentence, advice, row] = [h('p', { class: 'sentence' }), h('p', { class: 'remedy' }), h('div', { class: 'buttons' })];
+    const [sentence, advice, row] = [h('p', { class: 'sentence' }), h('p', { class: 'remedy' }), h('div', { class: 'tools' })];
     const element = h('div', { class: 'warning', 'data-code': code }, sentence, advice, row);
     let current: readonly Remedy[] = [];
     const button = (i: number) =>
