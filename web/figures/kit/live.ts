@@ -265,6 +265,7 @@ export class Live<C extends Channels, M extends Disposable> {
       if (this.#disposed) return;
       this.#stir();
       this.#picturePresets(this.#hb, [...this.#figure.presets]);
+      this.#showChosen();
     } catch (error) {
       this.element.dataset.state = 'failed';
       this.element.dataset.rest = 'yes';
@@ -346,13 +347,18 @@ export class Live<C extends Channels, M extends Disposable> {
     const preset = presets.find(({ id }) => id === sides?.options[side]?.[1]);
     const kept = this.#aside.get(side) ?? (preset && { preset, state: stateOfPreset(parameters, preset) });
     if (!kept) return;
-    this.#preset = kept.preset;
-    this.change(kept.state);
+    this.#choose(kept);
   }
 
   #begin(preset: Preset<C>): void {
+    this.#choose({ preset, state: stateOfPreset(this.#figure.parameters, preset) });
+  }
+
+  #choose({ preset, state }: Shown<C>): void {
+    // A step back leads to before it, though that has not come to rest yet.
+    this.#text ||= this.state;
     this.#preset = preset;
-    this.change(stateOfPreset(this.#figure.parameters, preset));
+    this.change(state);
   }
 
   #stir(): void {
@@ -438,10 +444,7 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   #failed(error: unknown, asked: Shown<C>): void {
-    const again = () => {
-      this.#preset = asked.preset;
-      this.change(asked.state);
-    };
+    const again = () => this.#choose(asked);
     if (!isAbort(error)) this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {
@@ -550,11 +553,19 @@ export class Live<C extends Channels, M extends Disposable> {
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
     this.#title.textContent = title;
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
-    for (const [id, button] of this.#presets) {
-      const chosen = id === this.#preset.id;
-      if (chosen && button.ariaPressed !== 'true') intoView(button);
-      button.ariaPressed = String(chosen);
-    }
+    const another = this.#presets.get(this.#preset.id)?.ariaPressed !== 'true';
+    for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);
+    if (another) this.#showChosen();
+  }
+
+  /** Along its row only: the page does not move. */
+  #showChosen(): void {
+    const button = this.#presets.get(this.#preset.id);
+    const row = button?.parentElement;
+    if (!button || !row) return;
+    const from = button.offsetLeft - row.offsetLeft;
+    if (from < row.scrollLeft || from + button.offsetWidth > row.scrollLeft + row.clientWidth)
+      row.scrollLeft = from - (row.clientWidth - button.offsetWidth) / 2;
   }
 
   #attempt(work: () => void): void {
@@ -570,15 +581,6 @@ export class Live<C extends Channels, M extends Disposable> {
     if (said) this.#note.tell(said);
     else this.#note.clear();
   }
-}
-
-/** Along its row only: the page does not move. */
-function intoView(button: HTMLElement): void {
-  const row = button.parentElement;
-  if (!row) return;
-  const from = button.offsetLeft - row.offsetLeft;
-  if (from < row.scrollLeft || from + button.offsetWidth > row.scrollLeft + row.clientWidth)
-    row.scrollLeft = from - (row.clientWidth - button.offsetWidth) / 2;
 }
 
 function madeLater(): PageError {
