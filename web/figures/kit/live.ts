@@ -292,7 +292,7 @@ export class Live<C extends Channels, M extends Disposable> {
       if (slot.opened || !(slot.panel.shown?.(state) ?? true)) return [];
       const opening = slot.panel.open(this.#kit(hb));
       const keep = (opened: OpenPanel<M, StateOf<C>>) => {
-        if (slot.opened) opened.dispose();
+        if (slot.opened || this.#disposed) opened.dispose();
         else slot.opened = opened;
       };
       return opening instanceof Promise ? [opening.then(keep)] : (keep(opening) ?? []);
@@ -421,6 +421,8 @@ export class Live<C extends Channels, M extends Disposable> {
     const make = () => this.#figure.make(hb, state, this.#worker(signal), this.#made);
     const opening = this.#openPanels(hb, state);
     if (!opening) return make();
+    // Heard of below, unless something else goes wrong before.
+    opening.catch(() => {});
     if (this.#made)
       return opening.then(() => {
         signal.throwIfAborted();

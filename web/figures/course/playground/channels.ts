@@ -124,7 +124,7 @@ function showText(show: Show): string {
 }
 
 function readShow(text: string, left: string[]): Show {
-  let show = PLAIN;
+  let show: Show = PLAIN;
   for (const word of text.split(',')) {
     const at = word.startsWith('at.') ? numbersOf(word.slice(3)) : undefined;
     if (Object.hasOwn(WORDS, word)) show = { ...show, ...WORDS[word] };

@@ -17,32 +17,20 @@ export interface Model {
   readonly slot: number;
 }
 
-type OutlierSearch = 'off' | 'row-sum' | 'leave-one-out' | 'residual';
-
-/** What is drawn besides the interpolants. */
-export interface Show {
-  readonly kernels: boolean;
-  readonly cardinal: boolean;
-  readonly outliers: OutlierSearch;
-  /** In the plane only, like all that follow. */
-  readonly isolines: boolean;
-  readonly surface: boolean;
-  readonly section: SectionKind;
-  /** Where the section lies, in units of the points. */
-  readonly sectionAt: number;
-  readonly colors: 'viridis' | 'around-zero';
-}
-
-export const PLAIN: Readonly<Show> = {
+/** What is drawn besides the interpolants: nothing at first. */
+export const PLAIN = {
   kernels: false,
   cardinal: false,
-  outliers: 'off',
+  outliers: 'off' as 'off' | 'row-sum' | 'leave-one-out' | 'residual',
+  /** In the plane only, like all that follow. */
   isolines: true,
   surface: false,
-  section: 'off',
+  section: 'off' as SectionKind,
+  /** Where the section lies, in units of the points. */
   sectionAt: 0,
-  colors: 'viridis',
+  colors: 'viridis' as 'viridis' | 'around-zero',
 };
+export type Show = Readonly<typeof PLAIN>;
 
 const SLOTS = 8;
 export const MOST_MODELS = 12;

@@ -28,8 +28,7 @@ export class ModelList implements OpenPanel<Fits, State> {
       this.#add.open = false;
       this.#add.querySelector('summary')?.focus();
     });
-    const title = h('h3', { id: 'models-title' }, 'Interpolants');
-    this.element = h('section', { 'aria-labelledby': 'models-title' }, title, this.#list, this.#add);
+    this.element = h('section', { 'aria-label': 'Interpolants' }, h('h3', {}, 'Interpolants'), this.#list, this.#add);
   }
 
   draw({ list }: Fits, state: State): void {
