@@ -81,11 +81,12 @@ function seen(element: HTMLElement): HTMLElement {
 /** The control of a part; another one where the state asks for one of another kind. */
 function partControl<S>({ parameter, read, when }: PartControl<S>, first: S, change: Change): PartShown<S> {
   const element = seen(h('div', {}));
-  let [kind, control] = ['', undefined as Control | undefined];
+  let [kind, last, control] = ['', undefined as Parameter | undefined, undefined as Control | undefined];
   const show = (state: S) => {
     element.hidden = !(when?.(state) ?? true);
     const asked = parameter(state);
-    const next = JSON.stringify(asked);
+    const next = asked === last ? kind : JSON.stringify(asked);
+    last = asked;
     if (next !== kind) {
       const focused = element.contains(document.activeElement);
       control = controlOf(asked, change);
