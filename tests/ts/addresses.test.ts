@@ -1,18 +1,18 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { load } from '../../wasm/ts/index.ts';
+import { Fit } from '../../web/figures/course/playground/fit.ts';
+import playgroundFigure from '../../web/figures/course/playground.ts';
+import type { Channels } from '../../web/figures/kit/channel.ts';
+import type { Figure } from '../../web/figures/kit/figure.ts';
+import { dataOf, MOST_POINTS } from '../../web/figures/kit/point-set.ts';
 import { axisMarks } from '../../web/figures/kit/scale.ts';
 import { roundRange } from '../../web/figures/kit/section.ts';
 import { fromText, toText } from '../../web/figures/kit/state-text.ts';
 import solidFigure from '../../web/figures/skinning/solid.ts';
 import * as gingerbread from '../../web/learn/gingerbread/address.ts';
 import { METHODS } from '../../web/learn/gingerbread/methods.ts';
-import * as playground from '../../web/learn/interpolation/address.ts';
-import { MOST_POINTS } from '../../web/learn/interpolation/experiment.ts';
-import { Fit } from '../../web/learn/interpolation/fit.ts';
-import { dataOf } from '../../web/learn/interpolation/interpolants.ts';
-import { PRESETS } from '../../web/learn/interpolation/presets.ts';
-import { leftOut, quoted } from '../../web/ui/address.ts';
+import { leftOut } from '../../web/ui/address.ts';
 import { readable } from '../../web/ui/dom.ts';
 import { explain } from '../../web/ui/explain.ts';
 
@@ -25,22 +25,25 @@ interface Page {
   readonly words: readonly string[];
 }
 
-const { parameters, presets, former = {} } = solidFigure;
-const solid = {
+/** The lines of text of a figure's states. */
+const linesOf = <C extends Channels, M extends object>({ parameters, presets, former, mend }: Figure<C, M>) => ({
   fromAddress: (hash: string, left: string[] = []) => {
-    const read = fromText(parameters, presets, hash, former);
-    left.push(...read.left.map(quoted));
+    const read = fromText(parameters, presets, hash, former, mend);
+    left.push(...read.left);
     return read;
   },
-  toAddress: ({ preset, state }: ReturnType<typeof fromText<typeof parameters>>): string => toText(parameters, preset, state),
-};
+  toAddress: ({ preset, state }: ReturnType<typeof fromText<C>>): string => toText(parameters, preset, state),
+});
+const playground = linesOf(playgroundFigure);
+const solid = linesOf(solidFigure);
 
 const PAGES: Record<string, Page> = {
   playground: {
     read: playground.fromAddress,
     write: playground.toAddress,
     words: [
-      ...PRESETS.map(({ id }) => id),
+      ...playgroundFigure.presets.map(({ id }) => id),
+      'v1&',
       ...['from=', 'd=', 'p=', 'm=', 'in=', 'range=', 'show=', 'pick=', 'shepard', 'rbf', 'tension', 'kernel=cubic', 'power=3'],
       ...['hidden', 'kernels', 'cardinal', 'section.across', 'at.', 'outliers.residual', 'surface'],
     ],
@@ -119,25 +122,25 @@ describe('points of any size', () => {
     fc.assert(
       fc.property(fc.constantFrom(1, 2), fc.array(fc.tuple(number, number, number), { minLength: 1, maxLength: 6 }), (d, rows) => {
         const p = rows.map((row) => row.slice(0, d + 1).join(',')).join(';');
-        const experiment = playground.fromAddress(
+        const { state } = playground.fromAddress(
           `#from=${d === 1 ? 'line' : 'plane'}&p=${p}&m=${models}&show=section.diagonal,at.0`,
         );
-        const [left, right, bottom, top] = experiment.frame;
+        const [left, right, bottom, top] = state.in;
         expect(left).toBeLessThan(right);
         expect(bottom).toBeLessThan(top);
-        expect(experiment.range[0]).toBeLessThan(experiment.range[1]);
-        for (const [low, high] of [[left, right] as const, [bottom, top] as const, experiment.range]) {
+        expect(state.range[0]).toBeLessThan(state.range[1]);
+        for (const [low, high] of [[left, right] as const, [bottom, top] as const, state.range]) {
           const { at, digits } = axisMarks(low, high, 8);
           expect(at.length).toBeGreaterThan(0);
           for (const mark of at) expect(readable(mark, digits)).toMatch(/^−?\d+(\.\d+)?(e−?\d+)?$/);
         }
         const places = d === 1 ? [left, right] : [left, bottom, right, top];
-        for (const model of experiment.models) {
-          const fit = new Fit(model, experiment.dimension);
-          fit.solve(hb, dataOf(experiment));
+        for (const model of state.m) {
+          const fit = new Fit(model, state.d);
+          fit.solve(hb, dataOf(state.p));
           if (!fit.interpolant) expect(explain(fit.problem).remedy).toMatch(/\.$/);
           const ys = fit.interpolant?.evaluate(places) ?? new Float64Array();
-          const [least, most] = roundRange([ys], Math.min(...experiment.values), Math.max(...experiment.values));
+          const [least, most] = roundRange([ys], Math.min(...state.p.values), Math.max(...state.p.values));
           expect(least).toBeLessThan(most);
           fit.dispose();
         }
@@ -176,7 +179,7 @@ describe('what an address says too much', () => {
   it('is counted where it is much', () => {
     const points = Array.from({ length: 10_000 }, (_, i) => `${i},${i % 7}`).join(';');
     expect(told(playground.fromAddress, `#p=${points}`)).toEqual(['9,940 of 10,000 points']);
-    expect(playground.fromAddress(`#p=${points}`).values.length).toBe(MOST_POINTS);
+    expect(playground.fromAddress(`#p=${points}`).state.p.values.length).toBe(MOST_POINTS);
     const handles = Array.from({ length: 10_000 }, (_, i) => `p:0,${i}`).join('~');
     expect(told(gingerbread.fromAddress, `#h=${handles}`)).toEqual(['9,976 of 10,000 handles']);
     expect(leftOut(['“a”', '“b”', '“c”', '“d”', '“e”', '“f”'])?.message).toMatch(/“d”, and 2 more\.$/);

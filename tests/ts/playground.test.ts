@@ -1,43 +1,59 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { load } from '../../wasm/ts/index.ts';
+import { mend, parameters, type State } from '../../web/figures/course/playground/channels.ts';
+import { emptiestPlace, fitted, newModel } from '../../web/figures/course/playground/experiment.ts';
+import { Fit } from '../../web/figures/course/playground/fit.ts';
+import { Fits } from '../../web/figures/course/playground/fits.ts';
+import { isOffered, kindOf, modelOf } from '../../web/figures/course/playground/interpolants.ts';
+import { weightedKernels } from '../../web/figures/course/playground/kernel-curves.ts';
+import { complete } from '../../web/figures/course/playground/kind.ts';
+import { PRESETS } from '../../web/figures/course/playground/presets.ts';
+import { KERNEL_NAMES } from '../../web/figures/course/playground/rbf-kind.ts';
+import { outlierText, searchOutliers, summary } from '../../web/figures/course/playground/report.ts';
+import { remediesOf } from '../../web/figures/course/playground/warning-list.ts';
+import { readAlone } from '../../web/figures/kit/channel.ts';
 import { ColorMap } from '../../web/figures/kit/color-map.ts';
+import type { Kit } from '../../web/figures/kit/figure.ts';
 import { drawIsolines, levels } from '../../web/figures/kit/isolines.ts';
 import { curvePath, spreadLabels } from '../../web/figures/kit/path.ts';
+import { pointActions } from '../../web/figures/kit/point-actions.ts';
+import { dataOf, movePoint, placeOf, removePoint, tidy } from '../../web/figures/kit/point-set.ts';
 import { Samples } from '../../web/figures/kit/samples.ts';
 import { axisMarks, fromLog, toLog } from '../../web/figures/kit/scale.ts';
 import { pointsOn, roundRange, sectionOf, sectionSamples } from '../../web/figures/kit/section.ts';
+import { fromText, stateOfPreset, toText } from '../../web/figures/kit/state-text.ts';
 import { brief, conditionText, health } from '../../web/figures/kit/words.ts';
-import { fromAddress, toAddress } from '../../web/learn/interpolation/address.ts';
-import {
-  copyOf,
-  emptiestPlace,
-  fitFrame,
-  newModel,
-  placeOf,
-  removePoint,
-  setPlace,
-  tidy,
-} from '../../web/learn/interpolation/experiment.ts';
-import { Fit } from '../../web/learn/interpolation/fit.ts';
-import { dataOf, isOffered, kindOf, modelOf } from '../../web/learn/interpolation/interpolants.ts';
-import { weightedKernels } from '../../web/learn/interpolation/kernel-curves.ts';
-import { complete, parseSetting, settingText } from '../../web/learn/interpolation/parameter.ts';
-import { PRESETS, presetOf } from '../../web/learn/interpolation/presets.ts';
-import { KERNEL_NAMES } from '../../web/learn/interpolation/rbf-kind.ts';
-import { outlierText, searchOutliers, summary } from '../../web/learn/interpolation/report.ts';
-import { remediesOf } from '../../web/learn/interpolation/warning-list.ts';
 
 const seed = 20140;
 const hb = await load();
 
-/** What a preset looks like, without the keys that only tell models of a session apart. */
-const plain = (experiment: ReturnType<typeof fromAddress>) => ({
-  ...experiment,
+/** What a text says, as the figure reads it. */
+const read = (text: string) => fromText(parameters, PRESETS, text, {}, mend);
+const presetOf = (id: string) => {
+  const preset = PRESETS.find((candidate) => candidate.id === id);
+  if (!preset) throw new Error(`there is no preset ${id}`);
+  return preset;
+};
+const stateOf = (id: string) => stateOfPreset(parameters, presetOf(id));
+
+/** What a state looks like, without the keys that only tell models of a session apart. */
+const plain = (state: State) => ({
+  ...state,
   // On a line there are no colors.
-  range: experiment.dimension === 1 ? [] : experiment.range,
-  models: experiment.models.map(({ key: _, ...model }) => model),
+  range: state.d === 1 ? [] : state.range,
+  m: state.m.map(({ key: _, ...model }) => model),
 });
+
+/** What handles and keys do to the points of a state. */
+function editing(first: State) {
+  const kit = {
+    state: first,
+    change: (patch: Partial<State>) => Object.assign(kit, { state: { ...kit.state, ...patch } }),
+    focus: () => {},
+  } as unknown as Kit<State>;
+  return { kit, actions: pointActions<unknown, State>(kit, (state) => state.in, { points: 'p', picked: 'pick' }) };
+}
 
 describe('presets', () => {
   it('hold every figure of the course from 9 to 21', () => {
@@ -47,22 +63,23 @@ describe('presets', () => {
     expect(new Set(ids).size).toBe(ids.length);
   });
 
-  it.each(PRESETS.map((preset) => [preset.id, preset] as const))('%s is solved and says what to look at', (_, preset) => {
-    const experiment = preset.make();
-    expect(experiment.preset).toBe(preset.id);
-    expect(experiment.points.length).toBe(experiment.values.length * experiment.dimension);
-    expect(experiment.models.length).toBeGreaterThan(0);
+  it.each(PRESETS.map((preset) => [preset.id, preset] as const))('%s is solved and says what to look at', (id, preset) => {
+    const state = stateOf(id);
+    expect(state.p.dimension).toBe(state.d);
+    expect(state.p.places.length).toBe(state.p.values.length * state.d);
+    expect(state.m.length).toBeGreaterThan(0);
     expect(preset.look).toMatch(/\.$/);
     expect(preset.attempt).toMatch(/[.?]$/);
-    for (let i = 0; i < experiment.values.length; i++) {
-      const before = placeOf(experiment, i);
-      setPlace(experiment, i, ...before);
-      expect(placeOf(experiment, i)).toEqual(before);
+    const { kit, actions } = editing(state);
+    for (let i = 0; i < state.p.values.length; i++) {
+      const before = placeOf(state.p, i);
+      actions.move(i, ...before);
+      expect(placeOf(kit.state.p, i)).toEqual(before);
     }
-    for (const model of experiment.models) {
-      expect(isOffered(model.kind, experiment.dimension)).toBe(true);
-      const fit = new Fit(model, experiment.dimension);
-      fit.solve(hb, dataOf(experiment));
+    for (const model of state.m) {
+      expect(isOffered(model.kind, state.d)).toBe(true);
+      const fit = new Fit(model, state.d);
+      fit.solve(hb, dataOf(state.p));
       expect(fit.problem).toBeUndefined();
       expect(fit.label.name).not.toBe('');
       fit.dispose();
@@ -70,25 +87,25 @@ describe('presets', () => {
   });
 
   it('figures 9 to 16, but for 11, share their points', () => {
-    const points = (id: string) => presetOf(id)?.make().points;
+    const points = (id: string) => stateOf(id).p;
     for (const id of ['fig-10', 'fig-12', 'fig-13', 'fig-14', 'fig-15', 'fig-16']) expect(points(id)).toEqual(points('fig-9'));
   });
 
   it('figure 15 deserves a warning whose remedy works, figure 19 is hopeless and its smoothing cures it', () => {
     const verdicts = (id: string) => {
-      const experiment = presetOf(id)?.make() as ReturnType<typeof fromAddress>;
-      return experiment.models.map((model) => {
+      const { m, p } = stateOf(id);
+      return m.map((model) => {
         const fit = new Fit(model, 1);
-        fit.solve(hb, dataOf(experiment));
-        return { fit, experiment, report: fit.verdict?.report };
+        fit.solve(hb, dataOf(p));
+        return { fit, p, report: fit.verdict?.report };
       });
     };
     const [narrow] = verdicts('fig-15');
     expect(narrow?.report?.warnings.map(({ code }) => code)).toEqual(['narrow-width']);
     const [remedy] = remediesOf(narrow?.report?.warnings[0] ?? {});
     if (!narrow || !remedy) throw new Error('there is no remedy');
-    narrow.fit.model.settings = { ...narrow.fit.model.settings, ...remedy.settings };
-    narrow.fit.solve(hb, dataOf(narrow.experiment));
+    narrow.fit.model = { ...narrow.fit.model, settings: { ...narrow.fit.model.settings, ...remedy.settings } };
+    narrow.fit.solve(hb, dataOf(narrow.p));
     expect(narrow.fit.verdict?.report?.warnings).toEqual([]);
 
     const [broad, cured] = verdicts('fig-19');
@@ -101,20 +118,21 @@ describe('presets', () => {
     ['fig-21', [5]],
     ['fig-21b', [7]],
   ])('%s: the outlier is found and named', (id, outliers) => {
-    const experiment = presetOf(id)?.make() as ReturnType<typeof fromAddress>;
-    const fits = experiment.models.map((model) => new Fit(model, 1));
-    const found = searchOutliers(hb, experiment, fits);
+    const { m, p, show } = stateOf(id);
+    const fits = m.map((model) => new Fit(model, 1));
+    const found = searchOutliers(hb, dataOf(p), show.outliers, fits);
     expect(found?.outliers).toEqual(outliers);
     expect(outlierText(found)).toMatch(new RegExp(`^Point ${outliers[0]} stands out: its score is \\d`));
-    experiment.show.outliers = 'off';
-    expect(searchOutliers(hb, experiment, fits)).toBeUndefined();
+    expect(searchOutliers(hb, dataOf(p), 'off', fits)).toBeUndefined();
   });
 });
 
 describe('addresses', () => {
   it.each(PRESETS.map(({ id }) => id))('#%s is the preset, and back', (id) => {
-    const experiment = fromAddress(`#${id}`);
-    expect(toAddress(experiment)).toBe(id);
+    const { preset, state, left } = read(`#${id}`);
+    expect(left).toEqual([]);
+    expect(toText(parameters, preset, state)).toBe(`v1&${id}`);
+    expect(plain(read(`#v1&${id}`).state)).toEqual(plain(stateOf(id)));
   });
 
   it(`any change survives the way through the address, seed ${seed}`, () => {
@@ -134,20 +152,29 @@ describe('addresses', () => {
     });
     fc.assert(
       fc.property(change, ({ preset, moves, gone, model, power, kernel, width, shown, kernels, outliers, section }) => {
-        const experiment = fromAddress(preset);
-        for (const [i, across, up] of moves) setPlace(experiment, i % experiment.values.length, across, up);
-        for (let i = 0; i < gone; i++) removePoint(experiment, 0);
+        const first = stateOf(preset);
+        const { kit, actions } = editing(first);
+        for (const [i, across, up] of moves) actions.move(i % first.p.values.length, across, up);
+        for (let i = 0; i < gone; i++) actions.remove(0);
         const kind = kindOf(model);
         if (!kind) throw new Error('there is no such kind');
-        const known = (id: string) => kind.parameters.some((parameter) => parameter.id === id);
+        const known = (id: string) => Object.hasOwn(kind.parameters, id);
         const wanted = { power, kernel, width, fit: 'own' };
         const settings = Object.fromEntries(Object.entries(wanted).filter(([id]) => known(id)));
-        experiment.models.push({ ...modelOf(kind, settings, experiment.models), shown });
-        Object.assign(experiment.show, { kernels, outliers, section, sectionAt: section === 'off' ? 0 : 0.25 });
-        experiment.picked = -1;
-        const again = fromAddress(`#${toAddress(experiment)}`);
-        expect(plain(again)).toEqual(plain(experiment));
-        expect(toAddress(again)).toBe(toAddress(experiment));
+        const state: State = {
+          ...kit.state,
+          m: [...first.m, { ...modelOf(kind, settings, first.m), shown }],
+          show: { ...first.show, kernels, outliers, section, sectionAt: section === 'off' ? 0 : 0.25 } as State['show'],
+          pick: -1,
+        };
+        // As today's links say it, and as those of before did.
+        const text = toText(parameters, presetOf(preset), state);
+        for (const link of [`#${text}`, `#${text.replace('v1&', '')}`]) {
+          const again = read(link);
+          expect(again.left).toEqual([]);
+          expect(plain(again.state)).toEqual(plain(state));
+          expect(toText(parameters, again.preset, again.state)).toBe(text);
+        }
       }),
       { seed, numRuns: 200 },
     );
@@ -165,68 +192,66 @@ describe('addresses', () => {
     '#p=1e300,2',
     '#pick=99&show=cardinal',
   ])('"%s" does no harm', (hash) => {
-    const experiment = fromAddress(hash);
-    expect(experiment.values.length).toBeGreaterThan(0);
-    expect(experiment.points.every(Number.isFinite)).toBe(true);
-    expect(experiment.frame[0]).toBeLessThan(experiment.frame[1]);
-    expect(experiment.picked).toBeLessThan(experiment.values.length);
-    expect(presetOf(experiment.preset)?.id).toBe(experiment.preset);
+    const { preset, state } = read(hash);
+    expect(state.p.values.length).toBeGreaterThan(0);
+    expect(state.p.places.every(Number.isFinite)).toBe(true);
+    expect(state.in[0]).toBeLessThan(state.in[1]);
+    expect(state.pick).toBeLessThan(state.p.values.length);
+    expect(presetOf(preset.id)).toBe(preset);
   });
 
   it('reads what somebody wrote by hand', () => {
-    const experiment = fromAddress(
+    const { state } = read(
       '#p=0,1;2,3;4,0.5&m=shepard:power=1~rbf:kernel=cubic:hidden&show=kernels,outliers.residual&in=-1,5,-1,4',
     );
-    expect(experiment.points).toEqual([0, 2, 4]);
-    expect(experiment.values).toEqual([1, 3, 0.5]);
-    expect(experiment.models.map(({ kind, shown }) => [kind, shown])).toEqual([
+    expect(state.p.places).toEqual([0, 2, 4]);
+    expect(state.p.values).toEqual([1, 3, 0.5]);
+    expect(state.m.map(({ kind, shown }) => [kind, shown])).toEqual([
       ['shepard', true],
       ['rbf', false],
     ]);
-    expect(experiment.models[0]?.settings).toEqual({ power: 1, epsilon: 0 });
-    expect(experiment.show).toMatchObject({ kernels: true, outliers: 'residual', cardinal: false });
-    expect(experiment.frame).toEqual([-1, 5, -1, 4]);
+    expect(state.m[0]?.settings).toEqual({ power: 1, epsilon: 0 });
+    expect(state.show).toMatchObject({ kernels: true, outliers: 'residual', cardinal: false });
+    expect(state.in).toEqual([-1, 5, -1, 4]);
   });
 });
 
 describe('points', () => {
   it('stay inside the frame, and the chosen one stays chosen as far as it can', () => {
-    const experiment = fromAddress('#fig-9');
-    setPlace(experiment, 0, -50, 99);
-    expect(placeOf(experiment, 0)).toEqual([experiment.frame[0], experiment.frame[3]]);
-    experiment.picked = 6;
-    removePoint(experiment, 2);
-    expect(experiment.values.length).toBe(6);
-    expect(experiment.picked).toBe(5);
+    const { kit, actions } = editing(stateOf('fig-9'));
+    actions.move(0, -50, 99);
+    expect(placeOf(kit.state.p, 0)).toEqual([kit.state.in[0], kit.state.in[3]]);
+    actions.pick(6);
+    actions.remove(2);
+    expect(kit.state.p.values.length).toBe(6);
+    expect(kit.state.pick).toBe(5);
   });
 
   it('come where there are fewest', () => {
-    const line = { ...copyOf(fromAddress('#fig-9')), points: [1, 2, 8], values: [0, 0, 0] };
-    expect(emptiestPlace(line)).toEqual([5]);
-    const plane = fromAddress('#fig-20');
-    const [x = 0, y = 0] = emptiestPlace(plane);
-    for (let i = 0; i < plane.values.length; i++) {
-      const [a, b] = placeOf(plane, i);
+    expect(emptiestPlace({ dimension: 1, places: [1, 2, 8], values: [0, 0, 0] }, stateOf('fig-9').in)).toEqual([5]);
+    const { p, in: frame } = stateOf('fig-20');
+    const [x = 0, y = 0] = emptiestPlace(p, frame);
+    for (let i = 0; i < p.values.length; i++) {
+      const [a, b] = placeOf(p, i);
       expect(Math.hypot(x - a, y - b)).toBeGreaterThan(0.7);
     }
   });
 
   it('all lie well inside a frame that was fitted to them, one point alone too', () => {
-    for (const id of ['#fig-9', '#plane']) {
-      const experiment = fromAddress(id);
-      experiment.points = experiment.points.map((coordinate) => coordinate * 40 + 7);
-      for (const count of [experiment.values.length, 1]) {
-        while (experiment.values.length > count) removePoint(experiment, 0);
-        fitFrame(experiment);
-        const [left, right, bottom, top] = experiment.frame;
+    for (const id of ['fig-9', 'plane']) {
+      const { p: first, d } = stateOf(id);
+      let p = { ...first, places: first.places.map((coordinate) => coordinate * 40 + 7) };
+      for (const count of [p.values.length, 1]) {
+        while (p.values.length > count) p = { ...p, ...removePoint(p, 0) } as typeof p;
+        const [left, right, bottom, top] = fitted(p).in;
         for (let i = 0; i < count; i++) {
-          const [x, y] = placeOf(experiment, i);
+          const [x, y] = placeOf(p, i);
           expect(x).toBeGreaterThan(left);
           expect(x).toBeLessThan(right);
           expect(y).toBeGreaterThan(bottom);
           expect(y).toBeLessThan(top);
         }
-        if (experiment.dimension === 2) expect(right - left).toBeCloseTo(top - bottom, 9);
+        if (d === 2) expect(right - left).toBeCloseTo(top - bottom, 9);
       }
     }
   });
@@ -243,14 +268,14 @@ describe('points', () => {
 
 describe('settings', () => {
   it('are completed, clamped and written as they are read', () => {
-    const parameters = kindOf('shepard')?.parameters ?? [];
-    expect(complete(parameters, { power: 3 })).toEqual({ power: 3, epsilon: 0 });
-    const [power, epsilon] = parameters;
+    const { power, epsilon } = kindOf('shepard')?.parameters ?? {};
     if (!power || !epsilon) throw new Error('there are no parameters');
-    expect(parseSetting(power, '100')).toBe(8);
-    expect(parseSetting(power, '')).toBeUndefined();
-    expect(parseSetting(epsilon, '-1')).toBe(0);
-    expect(settingText(true)).toBe('yes');
+    expect(complete({ power, epsilon }, { power: 3 })).toEqual({ power: 3, epsilon: 0 });
+    expect(readAlone<unknown>(power, '100')).toBe(8);
+    expect(readAlone<unknown>(power, '')).toBeUndefined();
+    expect(readAlone<unknown>(epsilon, '-1')).toBe(0);
+    const { normalized } = kindOf('rbf')?.parameters ?? {};
+    expect(normalized?.write(true as never, {})).toBe('yes');
   });
 
   it('models get the first color and dash that is free', () => {
@@ -284,11 +309,32 @@ describe('what keeps its last picture', () => {
     fit.solve(hb, { dimension: 1, points: [0, 1, 1], values: [1, 2, 0] });
     expect(fit.problem).toMatchObject({ code: expect.any(String), remedy: expect.stringMatching(/\.$/) });
     expect(fit.interpolant?.evaluate([0.5])[0]).toBe(before);
-    const experiment = fromAddress('#fig-9');
-    expect(summary(experiment, [fit], '')).toMatch(/^1 interpolant of 7 points; Gaussian: keeps its last picture, .*[^.]\.$/);
+    expect(summary(7, [fit], '')).toMatch(/^1 interpolant of 7 points; Gaussian: keeps its last picture, .*[^.]\.$/);
     fit.solve(hb, { dimension: 1, points: [0, 1, 2], values: [1, 2, 0] });
     expect(fit.problem).toBeUndefined();
     expect(fit.verdict?.misfit).toBeLessThan(1e-9);
+  });
+});
+
+describe('fits', () => {
+  it('are kept while nothing of theirs changes, solved again where it does, and gone with their interpolant', () => {
+    const state = stateOf('fig-18');
+    const fits = new Fits(hb).update(state);
+    const [first, second] = fits.list;
+    const made = [first?.interpolant, second?.interpolant];
+    const [one, other] = state.m;
+    if (!one || !other) throw new Error('there are no interpolants');
+    const m = [one, { ...other, settings: { ...other.settings, smoothing: 2 } }];
+    fits.update({ ...state, m });
+    expect(fits.list).toEqual([first, second]);
+    expect(first?.interpolant).toBe(made[0]);
+    expect(second?.interpolant).not.toBe(made[1]);
+    fits.update({ ...state, m, p: movePoint(state.p, 0, 1, 2) });
+    expect(first?.interpolant).not.toBe(made[0]);
+    fits.update({ ...state, m: [one] });
+    expect(fits.list).toEqual([first]);
+    expect(second?.interpolant).toBeUndefined();
+    fits.dispose();
   });
 });
 
@@ -385,17 +431,18 @@ describe('drawing', () => {
   });
 
   it('a section runs where it says and finds the points on it', () => {
-    const experiment = fromAddress('#fig-20');
-    const line = sectionOf(experiment);
+    const { p, in: frame, show } = stateOf('fig-20');
+    const line = sectionOf({ frame, show });
     if (!line) throw new Error('there is no section');
-    expect(pointsOn(line, experiment).map(({ point }) => point)).toEqual([0, 2, 4]);
-    expect(pointsOn(line, experiment).map(({ at }) => at)).toEqual([-Math.SQRT2, Math.SQRT2, 0].map((at) => expect.closeTo(at, 9)));
+    const placed = { points: p.places, values: p.values, frame };
+    expect(pointsOn(line, placed).map(({ point }) => point)).toEqual([0, 2, 4]);
+    expect(pointsOn(line, placed).map(({ at }) => at)).toEqual([-Math.SQRT2, Math.SQRT2, 0].map((at) => expect.closeTo(at, 9)));
     const [queries, axis] = [new Float64Array(6), new Float64Array(3)];
     sectionSamples(line, queries, axis);
     expect([...queries]).toEqual([-3, -3, 0, 0, 3, 3]);
     expect([...axis]).toEqual([-3 * Math.SQRT2, 0, 3 * Math.SQRT2].map((at) => expect.closeTo(at, 9)));
-    experiment.show = { ...experiment.show, section: 'across', sectionAt: 1 };
-    expect(sectionOf(experiment)?.ends).toEqual([0, expect.closeTo(1 / 3, 9), 1, expect.closeTo(1 / 3, 9)]);
+    const across = { ...show, section: 'across' as const, sectionAt: 1 };
+    expect(sectionOf({ frame, show: across })?.ends).toEqual([0, expect.closeTo(1 / 3, 9), 1, expect.closeTo(1 / 3, 9)]);
     expect(roundRange([Float64Array.of(-0.37, 1)], 0, 1)).toEqual([-0.5, 1.5]);
   });
 });

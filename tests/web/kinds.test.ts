@@ -351,7 +351,7 @@ describe.each([...PAGES, ...FIGURE_ROWS].map((row) => [row.address || 'the front
     expect(await cramped(page)).toEqual([]);
     // No choice of a row is cut off.
     const cut = () =>
-      [...document.querySelectorAll<HTMLElement>('.segmented span, .button, .film a span')]
+      [...document.querySelectorAll<HTMLElement>('.segmented span, .button')]
         .filter((element) => element.clientWidth > 0 && element.scrollWidth > element.clientWidth + 1)
         .map((element) => element.textContent);
     expect(await page.evaluate(cut)).toEqual([]);
@@ -417,7 +417,8 @@ it.each([
       throw new Error('there is a handle everywhere');
     });
   const touch = await fingers(page);
-  const before = await page.locator('.place, #live').first().textContent();
+  const said = '.place, .figure > .unseen[role=status], #live';
+  const before = await page.locator(said).first().textContent();
   await touch('touchStart', [x, y, 1]);
   await touch('touchStart', [x, y, 1], [x + 24, y, 2]);
   for (let i = 1; i <= 8; i++) {
@@ -426,7 +427,7 @@ it.each([
   }
   await touch('touchEnd');
   await soon(() => page.evaluate(() => visualViewport?.scale ?? 0)).toBeGreaterThan(1.2);
-  expect(await page.locator('.place, #live').first().textContent()).toBe(before);
+  expect(await page.locator(said).first().textContent()).toBe(before);
 });
 
 it('surfaces say that the graphics card was interrupted, keep the last picture, and come back', async () => {

@@ -1,9 +1,10 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
-import { PRESETS } from '../../web/learn/interpolation/presets.ts';
+import { PRESETS } from '../../web/figures/course/playground/presets.ts';
 import { embedded } from './support/embedded.ts';
+import { settled as rested } from './support/figure.ts';
 import { cramped, focused, violations } from './support/manners.ts';
-import { colorsOf, curveDistances, play, rested, said as spoken, spot } from './support/playground.ts';
+import { colorsOf, curveDistances, play, said as spoken, spot } from './support/playground.ts';
 import { difference, frames, launch, PHONE, soon, swipe } from './support/studio.ts';
 
 let browser: Browser;
@@ -40,13 +41,15 @@ describe.each([
 describe('presets', () => {
   it('each draws all its curves or maps, through its points where it interpolates', async () => {
     const { page, said } = await play(browser, '');
-    for (const { id, title, make } of PRESETS) {
+    for (const { id, title = '', state } of PRESETS) {
       await page.evaluate((hash) => {
         location.hash = hash;
       }, id);
-      await page.waitForFunction((text) => document.getElementById('title')?.textContent?.includes(text), title);
+      await page.waitForFunction((text) => document.querySelector('.figure-title')?.textContent?.includes(text), title);
       await rested(page);
-      const { models, dimension, values } = make();
+      const { m: models, d: dimension, p } = state;
+      if (!models || !p) throw new Error('there are no points');
+      const { values } = p;
       expect(await page.locator('.card').count()).toBe(models.length);
       expect(await page.locator('.card[data-failed]').count()).toBe(0);
       if (dimension === 2) {
@@ -65,15 +68,15 @@ describe('presets', () => {
     expect(said).toEqual([]);
   });
 
-  it('are links with a picture; the one that is shown is marked, and back goes back', async () => {
+  it('are buttons with a picture; the one that is shown is marked, and back goes back', async () => {
     const { page, said } = await play(browser, '#fig-9');
-    await page.getByRole('link', { name: 'Fig. 16', exact: true }).click();
-    await soon(() => page.locator('#title').textContent()).toMatch(/natural cubic/);
+    await page.getByRole('button', { name: 'Fig. 16', exact: true }).click();
+    await soon(() => page.locator('.figure-title').textContent()).toMatch(/natural cubic/);
     await rested(page);
-    expect(await page.locator('.film [aria-current]').textContent()).toBe('Fig. 16');
-    await soon(() => page.locator('.film a:has(.curve)').count()).toBe(PRESETS.length);
+    expect(await page.locator('.presets [aria-pressed=true]').textContent()).toBe('Fig. 16');
+    await soon(() => page.locator('.presets .button:has(.curve)').count()).toBe(PRESETS.length);
     await page.goBack();
-    await soon(() => page.locator('#title').textContent()).toMatch(/Shepard/);
+    await soon(() => page.locator('.figure-title').textContent()).toMatch(/Shepard/);
     expect(said).toEqual([]);
   });
 });
@@ -96,7 +99,7 @@ describe('points on a line', () => {
     await frames(page, 2);
     expect(await spot(page, 3)).toEqual(before);
     await rested(page);
-    expect(new URL(page.url()).hash).toBe('#line');
+    expect(new URL(page.url()).hash).toBe('#v1&line');
     expect(said).toEqual([]);
   });
 
@@ -113,7 +116,7 @@ describe('points on a line', () => {
     await swipe(page, area.x + area.width - 30, area.y + area.height - 40, 0, -150);
     await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(80);
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toMatch(/^#from=fig-9&p=/);
+    expect(await page.evaluate(() => location.hash)).toMatch(/^#v1&from=fig-9&p=/);
   });
 
   it('stay under the finger that holds them whatever another one does, and where they are when the window is lost', async () => {
@@ -187,7 +190,7 @@ describe('points on a line', () => {
     await soon(() => page.locator('.point').count()).toBe(7);
     // Where the curve is already: it does not move.
     const before = await page.locator('.main-chart .curves path').getAttribute('d');
-    await page.locator('#add-point').click();
+    await page.getByRole('button', { name: 'Add a point' }).first().click();
     await soon(() => page.locator('.point').count()).toBe(8);
     expect((await curveDistances(page, await spot(page, 7)))[0]).toBeLessThan(1);
     expect(before).not.toBe('');
@@ -232,7 +235,7 @@ describe('interpolants', () => {
     await page.getByRole('button', { name: 'Remove Multiquadric' }).click();
     await soon(() => page.locator('.card').count()).toBe(1);
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#from=fig-9&m=shepard:hidden');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=fig-9&m=shepard:hidden');
     expect(said).toEqual([]);
   });
 
@@ -256,7 +259,7 @@ describe('interpolants', () => {
     await warning.waitFor({ state: 'detached' });
     expect(await page.locator('.card .detail').textContent()).toBe('width 2.2');
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#from=fig-15&m=rbf:fit=own:width=2.2');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=fig-15&m=rbf:fit=own:width=2.2');
     expect(said).toEqual([]);
   });
 
@@ -336,14 +339,14 @@ describe('the address', () => {
     await page.keyboard.press('Home');
     await rested(page);
     const hash = await page.evaluate(() => location.hash);
-    expect(hash).toBe('#from=fig-18&p=1,1.7;2.2,2.6;3,1.1;4.6,3.2;6.6,2.7;7.4,1;9,1.9&m=rbf:kernel=cubic~rbf:kernel=cubic');
+    expect(hash).toBe('#v1&from=fig-18&p=1,1.7;2.2,2.6;3,1.1;4.6,3.2;6.6,2.7;7.4,1;9,1.9&m=rbf:kernel=cubic~rbf:kernel=cubic');
     const curves = (of: typeof page) =>
       of.locator('.main-chart .curves path').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')));
     const drawn = await curves(page);
     const { page: again } = await play(browser, hash);
     expect(await curves(again)).toEqual(drawn);
-    await again.getByRole('link', { name: 'Back to how it was' }).click();
-    await soon(() => again.evaluate(() => location.hash)).toBe('#fig-18');
+    await again.getByRole('button', { name: 'Reset' }).click();
+    await soon(() => again.evaluate(() => location.hash)).toBe('#v1&fig-18');
     await soon(() => again.locator('.card .detail').last().textContent()).toBe('smoothing 1');
   });
 
@@ -352,20 +355,20 @@ describe('the address', () => {
     const { page, said } = await play(browser, '#fig-9');
     page.on('request', (request) => asked.push(new URL(request.url()).pathname));
     const loaded = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
-    expect(loaded.filter((name) => /plane|surface|three|worker/.test(name))).toEqual([]);
+    expect(loaded.filter((name) => /plane|field-plot|surface|three|worker/.test(name))).toEqual([]);
     await page.getByLabel('Power p').focus();
     await page.keyboard.press('ArrowRight');
     await rested(page);
     await page.getByRole('radio', { name: 'In the plane' }).check();
     await page.locator('.field').first().waitFor();
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#plane');
-    expect(asked.some((name) => name.includes('plane-view'))).toBe(true);
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&plane');
+    expect(asked.some((name) => name.includes('plane-'))).toBe(true);
     expect(asked.some((name) => name.includes('three'))).toBe(false);
     await page.getByRole('radio', { name: 'On a line' }).check();
     await page.locator('.main-chart').waitFor();
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#from=fig-9&m=shepard:power=2.1');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=fig-9&m=shepard:power=2.1');
     expect(said).toEqual([]);
   });
 });
@@ -424,7 +427,7 @@ describe('the plane', () => {
     await soon(() => page.locator('.color-scale label').textContent()).toBe('Weight of point 4');
     await rested(page);
     expect(await shot()).not.toEqual(before);
-    expect(await page.evaluate(() => location.hash)).toBe('#from=plane&show=cardinal&pick=4');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=plane&show=cardinal&pick=4');
   });
 
   it('shows surfaces when asked, one renderer for all, turned by sliders', async () => {
@@ -524,8 +527,8 @@ describe('manners', () => {
       Reflect.deleteProperty(globalThis, 'WebAssembly');
     });
     await page.goto(`${inject('site')}learn/interpolation/`);
-    await page.waitForSelector('#playground[data-state=failed]');
-    expect(await page.getByRole('alert').textContent()).toMatch(/WebAssembly.*\.$/);
+    await page.waitForSelector('[data-figure=playground][data-state=failed]');
+    expect(await page.getByRole('alert').locator('span').textContent()).toMatch(/WebAssembly.*\.$/);
     expect(await violations(page)).toEqual([]);
     await page.close();
   });
@@ -534,7 +537,7 @@ describe('manners', () => {
     const page = await browser.newPage();
     await page.goto(inject('site'));
     await page.getByRole('link', { name: /Compare interpolants/ }).click();
-    await page.waitForSelector('#playground[data-state=ready]');
+    await page.waitForSelector('[data-figure=playground][data-state=ready]');
     await page.close();
   });
 });
@@ -552,7 +555,7 @@ describe('the focus', () => {
     await page.keyboard.press('Delete');
     await rested(page);
     expect(await focused(page)).toMatch(new RegExp(`^Point ${count - 3},`));
-    await page.locator('#tools button', { hasText: `Remove point ${count - 3}` }).click();
+    await page.locator('.figure-head .tools button', { hasText: `Remove point ${count - 3}` }).click();
     await rested(page);
     expect(await focused(page)).toMatch(new RegExp(`^Point ${count - 4},`));
 
@@ -641,7 +644,7 @@ describe('a copied link', () => {
     await sheet.waitFor();
     expect(await page.locator('#copy').textContent()).toBe('Not copied');
     expect(await page.evaluate(() => getSelection()?.toString())).toBe(page.url());
-    expect(page.url()).toMatch(/from=fig-9&p=1,1\.25/);
+    expect(page.url()).toMatch(/v1&from=fig-9&p=1,1\.25/);
     expect(await sheet.getByRole('textbox').evaluate((field: HTMLInputElement) => field.readOnly)).toBe(true);
     expect(await violations(page)).toEqual([]);
     expect(await cramped(page)).toEqual([]);
@@ -652,9 +655,9 @@ describe('a copied link', () => {
   });
 
   it('is our own in the frame of another site, which shows its own address', async () => {
-    const address = `${inject('site')}learn/interpolation/#fig-9`;
+    const address = `${inject('site')}learn/interpolation/#v1&fig-9`;
     const frame = await embedded(browser, address);
-    await frame.waitForSelector('#playground[data-rest=yes]', { timeout: 60_000 });
+    await frame.waitForSelector('[data-figure=playground][data-rest=yes]', { timeout: 60_000 });
     await frame.locator('#copy').click();
     const field = frame.getByRole('textbox', { name: /^Link/ });
     await field.waitFor();
@@ -668,21 +671,21 @@ describe('what does not come', () => {
 
   it('leaves the line where the plane was asked for, and comes when it is asked for again', async () => {
     const { page, said } = await play(browser, '#fig-9', PHONE);
-    await page.route('**/plane-view-*.js', (route) => route.abort(), { times: 1 });
+    await page.route('**/plane-*.js', (route) => route.abort(), { times: 1 });
     await page.getByRole('radio', { name: 'In the plane' }).check();
-    await soon(() => page.locator('#trouble').textContent()).toMatch(/could not be fetched\. Check/);
+    await soon(() => page.locator('.figure > .trouble').textContent()).toMatch(/could not be fetched\. Check/);
     expect(await page.getByRole('radio', { name: 'On a line' }).isChecked()).toBe(true);
-    expect(await page.locator('#title').textContent()).toMatch(/Shepard/);
+    expect(await page.locator('.figure-title').textContent()).toMatch(/Shepard/);
     expect(await page.locator('.main-chart').isVisible()).toBe(true);
     expect(await violations(page)).toEqual([]);
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#fig-9');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&fig-9');
     await retry(page).click();
     await page.locator('.field').first().waitFor();
     await rested(page);
     expect(await page.getByRole('radio', { name: 'In the plane' }).isChecked()).toBe(true);
-    expect(await page.locator('#trouble').isVisible()).toBe(false);
-    expect(await page.evaluate(() => location.hash)).toBe('#plane');
+    expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&plane');
     expect(said.filter((text) => !/ERR_FAILED/.test(text))).toEqual([]);
   });
 
@@ -692,7 +695,7 @@ describe('what does not come', () => {
     const held = new Promise<void>((resolve) => {
       free = resolve;
     });
-    await page.route('**/plane-view-*.js', async (route) => {
+    await page.route('**/plane-*.js', async (route) => {
       await held;
       await route.continue();
     });
@@ -702,7 +705,7 @@ describe('what does not come', () => {
     free();
     await page.waitForTimeout(500);
     expect(await page.locator('.main-chart').isVisible()).toBe(true);
-    expect(await page.locator('#title').textContent()).toMatch(/Shepard/);
+    expect(await page.locator('.figure-title').textContent()).toMatch(/Shepard/);
     await page.getByRole('radio', { name: 'In the plane' }).check();
     await page.locator('.field').first().waitFor();
     expect(said).toEqual([]);
@@ -712,10 +715,10 @@ describe('what does not come', () => {
     const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
     onTestFinished(() => context.close());
     const page = await context.newPage();
-    await page.route('**/plane-view-*.js', (route) => route.abort(), { times: 1 });
+    await page.route('**/plane-*.js', (route) => route.abort(), { times: 1 });
     await page.goto(`${inject('site')}learn/interpolation/#fig-20`);
     await retry(page).waitFor();
-    expect(await page.locator('#picture').evaluate((picture) => picture.childElementCount)).toBe(0);
+    expect(await page.locator('.panels > * > *').count()).toBe(0);
     expect(await page.locator('.card').count()).toBe(3);
     await page.getByRole('radio', { name: 'On a line' }).check();
     await page.locator('.main-chart').waitFor();
@@ -723,7 +726,7 @@ describe('what does not come', () => {
     await page.goBack();
     await page.locator('.field').first().waitFor();
     await rested(page);
-    expect(await page.locator('#title').textContent()).toMatch(/Four corners/);
+    expect(await page.locator('.figure-title').textContent()).toMatch(/Four corners/);
   });
 
   it.each(['surfaces', 'three'])('surfaces: without %s the maps stay, with another try they come', async (part) => {
@@ -746,7 +749,7 @@ describe('links', () => {
     const { page, said } = await play(browser, '#from=fig-9&foo=1&p=1,2;x,3;4,5&m=shepard:power=1:hat=2');
     expect(await page.locator('.point').count()).toBe(2);
     expect(await page.locator('.card .detail').textContent()).toBe('p = 1');
-    const told = page.locator('#trouble');
+    const told = page.locator('.notice');
     expect(await told.textContent()).toMatch(/^Left out of this link.*“foo=1”, 1 of 3 points, “hat=2”\. The rest is shown\./);
     await page.getByRole('button', { name: 'Dismiss this message' }).click();
     expect(await told.isVisible()).toBe(false);
@@ -761,7 +764,7 @@ describe('links', () => {
     await page.evaluate(() => {
       location.hash = '#fig-16';
     });
-    await soon(() => page.locator('#title').textContent()).toMatch(/natural cubic/);
+    await soon(() => page.locator('.figure-title').textContent()).toMatch(/natural cubic/);
     expect(await told.isVisible()).toBe(false);
     expect(said).toEqual([]);
   });
@@ -781,7 +784,7 @@ describe('links', () => {
     const { page, said } = await play(browser, hash);
     expect(await page.locator('.point:not([aria-hidden])').count()).toBe(count);
     expect(await page.locator('.point:not([aria-hidden])[data-outside]').count()).toBe(0);
-    expect(await page.locator('#trouble').textContent()).toMatch(told);
+    expect(await page.locator('.notice').textContent()).toMatch(told);
     for (const card of await page.locator('.card').all()) expect(await card.innerText()).toMatch(/points|\.$/);
     expect(said).toEqual([]);
   });

@@ -27,6 +27,17 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
+/** Makes a list hold as many elements as wanted, keeping those it has. */
+export function match(list: Element, count: number, make: (i: number) => Element): void {
+  while (list.childElementCount > count) list.lastElementChild?.remove();
+  while (list.childElementCount < count) list.append(make(list.childElementCount));
+}
+
+/** Says a text, where it is another one than before: what has not changed is not touched. */
+export function write(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** The element of the page with this id, which the page's own HTML promises. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   const element = document.getElementById(id);

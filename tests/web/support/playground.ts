@@ -1,8 +1,8 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
+import { settled } from './figure.ts';
 import { listen } from './listen.ts';
 import { type Opened, sharedPage } from './shared-page.ts';
-import { frames } from './studio.ts';
 
 const ORDINARY = { viewport: { width: 1280, height: 800 } } as const;
 
@@ -15,8 +15,8 @@ export async function play(
   const address = `${inject('site')}learn/interpolation/${hash}`;
   if (!before && Object.keys(options).length === 0) {
     const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
-    await opened.page.waitForSelector('#playground[data-state=ready]', { timeout: 60_000 });
-    await rested(opened.page);
+    await opened.page.waitForSelector('.figure[data-state=ready]', { timeout: 60_000 });
+    await settled(opened.page);
     return opened;
   }
   const context = await browser.newContext({ ...ORDINARY, ...options });
@@ -25,15 +25,9 @@ export async function play(
   const said = listen(page);
   if (before) await page.addInitScript(before);
   await page.goto(address);
-  await page.waitForSelector('#playground[data-state=ready]', { timeout: 60_000 });
-  await rested(page);
+  await page.waitForSelector('.figure[data-state=ready]', { timeout: 60_000 });
+  await settled(page);
   return { page, said };
-}
-
-/** Waits until the page has written its address and spoken: nothing has moved for a while. */
-export async function rested(page: Page): Promise<void> {
-  await page.waitForFunction(() => document.getElementById('playground')?.dataset.rest === 'yes', undefined, { timeout: 30_000 });
-  await frames(page, 2);
 }
 
 export interface Spot {
@@ -85,5 +79,5 @@ export async function colorsOf(page: Page, panel: number): Promise<number> {
 }
 
 export async function said(page: Page): Promise<string> {
-  return (await page.locator('#live').textContent()) ?? '';
+  return (await page.locator('.figure > .unseen[role=status]').textContent()) ?? '';
 }

@@ -66,10 +66,10 @@ export default define({
     plot: linePlot<Made, StateOf<typeof parameters>>({
       label: 'Plot of the points, the kernels and their sum',
       frame: [0, 10, -2, 5],
+      points: { points: 'points' },
       draw: (plot, { rbf, weights }, { points: set, width }, change) => {
-        plot.through(set.places);
         for (const [k, center] of set.places.entries()) plot.area(kernel(center, weights[k] ?? 0, width));
-        plot.curve('Sum of kernels', rbf, { dashed: true }).points('points');
+        plot.curve('Sum of kernels', rbf, { dashed: true });
         plot.handles(
           set.places.map((center, k) => ({
             name: `Kernel ${k}, weight ${brief(weights[k] ?? 0)}`,

@@ -19,15 +19,8 @@ const parameters = {
   first: decay('λ, first map', 0),
   second: decay('λ, second map', 0.01),
   third: decay('λ, third map', 0.1),
-  scale: choice('Colors', [
-    ['one', 'one scale for all maps'],
-    ['own', 'a scale for each map, as in the course'],
-  ]),
-  section: choice('Section', [
-    ['diagonal', 'along the diagonal'],
-    ['across', 'across the middle'],
-    ['off', 'none'],
-  ]),
+  scale: choice('Colors', { one: 'one scale for all maps', own: 'a scale for each map, as in the course' }),
+  section: choice('Section', { diagonal: 'along the diagonal', across: 'across the middle', off: 'none' }),
 };
 
 interface Made {

@@ -1,9 +1,13 @@
 /** One thing that a figure's state holds: what it is at first, and how a line of text says it. */
 export interface Channel<T> {
   readonly initial: T;
-  /** What a text stands for; nothing where it stands for nothing. Never throws. */
-  read(text: string): T | undefined;
-  write(value: T): string;
+  /**
+   * What a text stands for; nothing where it stands for nothing. Never throws. What of it is left out goes to `left`, as it is to be told;
+   * `state` holds what channels before this one said.
+   */
+  read(text: string, left: string[], state: Readonly<Record<string, unknown>>): T | undefined;
+  /** The same text for what is the same to the eye: `state` says what is seen. */
+  write(value: T, state: Readonly<Record<string, unknown>>): string;
 }
 
 // biome-ignore lint/suspicious/noExplicitAny: a channel of anything; `StateOf` tells what
@@ -55,6 +59,11 @@ export function isParameter(channel: Channel<unknown>): channel is Parameter {
   return 'type' in channel && ['range', 'auto-range', 'choice', 'switch'].includes(channel.type as string);
 }
 
+/** As a line of text says it, where no other channel matters. */
+export function readAlone<T>({ read }: Channel<T>, text: string): T | undefined {
+  return read(text, [], {});
+}
+
 interface RangeOptions<T> {
   readonly from: number;
   readonly to: number;
@@ -90,29 +99,30 @@ export function autoRange(label: string, options: RangeOptions<number | 'auto'>)
     ...numbers,
     type: 'auto-range',
     initial: options.value,
-    read: (text) => (text === 'auto' ? 'auto' : numbers.read(text)),
+    read: (text) => (text === 'auto' ? 'auto' : readAlone(numbers, text)),
     write: String,
   };
 }
 
-/** The first option is the one that it begins with. */
+/** Options by their values, or as a list where that has words to explain them. It begins with the first one, or with `value`. */
 export function choice<T extends string>(
   label: string,
-  options: readonly Option<T>[],
-  { rare = false, open = false }: { readonly rare?: boolean; readonly open?: boolean } = {},
+  given: readonly Option<T>[] | Readonly<Record<T, string>>,
+  { rare = false, open = false, value }: { readonly rare?: boolean; readonly open?: boolean; readonly value?: NoInfer<T> } = {},
 ): Choice<T> {
+  const options = 'length' in given ? (given as readonly Option<T>[]) : (Object.entries(given) as [T, string][]);
   const [first] = options;
   if (!first) throw new Error('A choice needs an option.');
-  const values: readonly T[] = options.map(([value]) => value);
+  const values: readonly T[] = options.map(([option]) => option);
   return {
     type: 'choice',
     label,
     options,
-    initial: first[0],
+    initial: value ?? first[0],
     rare,
     open,
-    read: (text) => values.find((value) => value === text),
-    write: (value) => value,
+    read: (text) => values.find((option) => option === text),
+    write: String,
   };
 }
 
@@ -122,7 +132,7 @@ export function toggle(label: string, initial = false, { rare = false }: { reado
     label,
     initial,
     rare,
-    read: (text) => ({ yes: true, no: false })[text],
+    read: (text) => (text === 'yes' || text === 'no' ? text === 'yes' : undefined),
     write: (value) => (value ? 'yes' : 'no'),
   };
 }

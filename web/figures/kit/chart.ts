@@ -1,4 +1,4 @@
-import { h, readable, svg } from '../../ui/dom.ts';
+import { h, match, readable, svg, write } from '../../ui/dom.ts';
 import { onScreenChange } from '../../ui/screen.ts';
 import { curvePath, spreadLabels } from './path.ts';
 import type { Frame } from './samples.ts';
@@ -12,15 +12,13 @@ export interface Label {
 
 /** A curve as the chart draws it. */
 export interface Curve {
-  /** Of the model, for emphasis. */
+  /** By which it is emphasized. */
   readonly key: number;
   readonly slot: number;
   readonly label: Label;
   readonly xs: Float64Array;
-  /** One number a place, `stride` apart from `first` on. */
+  /** One number a place. */
   readonly ys: Float64Array;
-  readonly stride?: number;
-  readonly first?: number;
   /** Not of the present data, because those were refused. */
   readonly stale?: boolean;
   /** Dashed in any case: the sum of what is drawn below it. */
@@ -118,32 +116,25 @@ export class Chart {
     return [left + (px / this.width) * (right - left), top - (py / this.height) * (top - bottom)];
   }
 
-  /** Lets all curves fade but one model's; none for 0. */
-  emphasize(key: number): void {
-    for (const group of [this.#curves, this.#names])
-      for (const element of group.children)
-        element.toggleAttribute('data-faded', key !== 0 && (element as SVGElement).dataset.key !== String(key));
-  }
-
   draw(curves: readonly Curve[]): void {
     if (this.width === 0 && !this.measure()) return;
-    match(this.#curves, 'path', curves.length);
+    match(this.#curves, curves.length, () => svg('path'));
     curves.forEach((curve, i) => {
       const path = this.#curves.children[i] as SVGPathElement;
       mark(path, curve);
-      path.setAttribute('d', this.path(curve.xs, curve.ys, curve.stride, curve.first));
+      path.setAttribute('d', this.path(curve.xs, curve.ys));
     });
     this.#drawNames(curves);
   }
 
-  path(xs: Float64Array, ys: ArrayLike<number>, stride = 1, first = 0): string {
+  path(xs: Float64Array, ys: ArrayLike<number>): string {
     const [left, right, bottom, top] = this.#frame;
     const [ax, ay] = [this.width / (right - left), this.height / (bottom - top)];
-    return curvePath(xs, ys, [ax, -left * ax, ay, -top * ay], stride, first);
+    return curvePath(xs, ys, [ax, -left * ax, ay, -top * ay]);
   }
 
   #drawNames(curves: readonly Curve[]): void {
-    match(this.#names, 'g', this.named ? curves.length : 0, () =>
+    match(this.#names, this.named ? curves.length : 0, () =>
       svg(
         'g',
         {},
@@ -152,8 +143,8 @@ export class Chart {
       ),
     );
     if (!this.named) return;
-    const ends = curves.map(({ ys, stride = 1, first = 0 }) => {
-      const y = this.y(ys[first + (ys.length / stride - 1) * stride] ?? 0);
+    const ends = curves.map(({ ys }) => {
+      const y = this.y(ys.at(-1) ?? 0);
       return Number.isNaN(y) ? this.height / 2 : Math.min(Math.max(y, 6), this.height - 6);
     });
     const gaps = curves.map(({ label }) => (label.detail ? 2 * LINE + 4 : LINE + 4));
@@ -167,8 +158,8 @@ export class Chart {
       const [end, place] = [ends[i] as number, places[i] as number];
       leader.setAttribute('d', `M2 ${end.toFixed(1)}L14 ${place.toFixed(1)}`);
       text.setAttribute('y', (place + 4 - (curve.label.detail ? LINE / 2 : 0)).toFixed(1));
-      write(name, curve.label.name, 23);
-      write(detail, curve.label.detail, 28);
+      write(name, brief(curve.label.name, 23));
+      write(detail, brief(curve.label.detail, 28));
     });
   }
 
@@ -212,21 +203,9 @@ export class Chart {
   }
 }
 
-/** Makes a group hold as many elements as wanted, keeping those it has. */
-export function match<K extends keyof SVGElementTagNameMap>(
-  group: SVGGElement,
-  tag: K,
-  count: number,
-  make: () => SVGElement = () => svg(tag),
-): void {
-  while (group.childElementCount > count) group.lastElementChild?.remove();
-  while (group.childElementCount < count) group.append(make());
-}
-
 /** A text, shortened to what has room beside a curve. */
-function write(element: Element, text: string, most: number): void {
-  const short = text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
-  if (element.textContent !== short) element.textContent = short;
+function brief(text: string, most: number): string {
+  return text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
 }
 
 function mark(element: SVGElement, { key, slot, stale, sum }: Curve): void {

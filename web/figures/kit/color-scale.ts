@@ -1,4 +1,4 @@
-import { h, readable } from '../../ui/dom.ts';
+import { h, readable, write } from '../../ui/dom.ts';
 import type { ColorMap } from './color-map.ts';
 import { axisMarks } from './scale.ts';
 import { brief } from './words.ts';
@@ -49,7 +49,7 @@ export class ColorScale {
       this.#input.max = String(colors.high);
       this.#input.step = String((colors.high - colors.low) / 400);
     }
-    if (this.#title.textContent !== title) this.#title.textContent = title;
+    write(this.#title, title);
     this.#input.disabled = value === undefined;
     this.#input.hidden = value === undefined;
     if (value === undefined) return;

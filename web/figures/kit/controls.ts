@@ -19,7 +19,7 @@ interface Control {
   show(value: unknown): void;
 }
 
-/** A control that shows its part of a state. */
+/** Controls that show their parts of a state. */
 export interface PartShown<S> {
   readonly element: HTMLElement;
   show(state: S): void;
@@ -51,14 +51,42 @@ export function partsOf<C extends Channels, M extends object>({
   return [...own, ...parts];
 }
 
-/** The control of a part; another one where the state asks for one of another kind. `change` hears every new value. */
-export function partControl<S>({ parameter, read }: PartControl<S>, first: S, change: Change): PartShown<S> {
-  const element = h('div', {});
-  element.style.display = 'contents';
-  let [kind, control] = ['', undefined as Control | undefined];
+/** The controls of several parts; seldom needed ones are behind "More settings". `change` hears every new value. */
+export function partControls<S>(
+  parts: readonly PartControl<S>[],
+  first: S,
+  change: (part: PartControl<S>, value: unknown) => void,
+): PartShown<S> {
+  const controls = parts.map((part) => partControl(part, first, (value) => change(part, value)));
+  const of = (rare: boolean) =>
+    controls.filter((_, i) => !!parts[i]?.parameter(first).rare === rare).map((control) => control.element);
+  const element = seen(h('div', {}, ...of(false)));
+  const rare = of(true);
+  if (rare.length > 0)
+    element.append(
+      h('details', { class: 'more' }, h('summary', {}, 'More settings'), h('div', { class: 'more-controls' }, ...rare)),
+    );
   const show = (state: S) => {
+    for (const control of controls) control.show(state);
+  };
+  return { element, show };
+}
+
+/** Lays out its children as if they were in its place. */
+function seen(element: HTMLElement): HTMLElement {
+  element.style.display = 'contents';
+  return element;
+}
+
+/** The control of a part; another one where the state asks for one of another kind. */
+function partControl<S>({ parameter, read, when }: PartControl<S>, first: S, change: Change): PartShown<S> {
+  const element = seen(h('div', {}));
+  let [kind, last, control] = ['', undefined as Parameter | undefined, undefined as Control | undefined];
+  const show = (state: S) => {
+    element.hidden = !(when?.(state) ?? true);
     const asked = parameter(state);
-    const next = JSON.stringify(asked);
+    const next = asked === last ? kind : JSON.stringify(asked);
+    last = asked;
     if (next !== kind) {
       const focused = element.contains(document.activeElement);
       control = controlOf(asked, change);

@@ -1,4 +1,4 @@
-import { h } from '../../ui/dom.ts';
+import { h, write } from '../../ui/dom.ts';
 import { onScreenChange } from '../../ui/screen.ts';
 import type { Label } from './chart.ts';
 import type { ColorMap } from './color-map.ts';
@@ -23,15 +23,6 @@ export interface FieldActions extends PointActions {
 /** Where a section begins and ends, as parts of the picture from its upper left corner: x, y, x, y. */
 export type Ends = readonly [number, number, number, number];
 
-interface FieldPanelOptions {
-  readonly slot: number;
-  /** Its handles are those that the keyboard reaches. */
-  readonly first: boolean;
-  readonly frame: () => Frame;
-  readonly actions: FieldActions;
-  readonly resized: () => void;
-}
-
 /** A function in the plane: a picture, its name, and the points over it. */
 export class FieldPanel {
   readonly element: HTMLElement;
@@ -51,7 +42,8 @@ export class FieldPanel {
   #side = 0;
   #width = 0;
 
-  constructor({ slot, first, frame, actions, resized }: FieldPanelOptions) {
+  /** The handles of the first one are those that the keyboard reaches. */
+  constructor(first: boolean, frame: () => Frame, actions: FieldActions, resized: () => void) {
     const width = () => this.#width;
     const board: Board = {
       get size() {
@@ -87,7 +79,7 @@ export class FieldPanel {
       'figure',
       { class: 'field' },
       this.area,
-      h('figcaption', {}, swatch(slot), h('span', {}, this.#name, ' ', this.#detail)),
+      h('figcaption', {}, swatch(0), h('span', {}, this.#name, ' ', this.#detail)),
     );
     onScreenChange(this.area, () => this.measure() && resized(), this.#left.signal);
   }
@@ -111,19 +103,16 @@ export class FieldPanel {
     return this.canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
   }
 
-  name({ name, detail }: Label, slot: number): void {
-    if (this.#name.textContent !== name) this.#name.textContent = name;
-    if (this.#detail.textContent !== detail) this.#detail.textContent = detail;
+  name({ name, detail }: Label, slot: number, key: number): void {
+    this.element.dataset.key = String(key);
+    write(this.#name, name);
+    write(this.#detail, detail);
     const path = this.element.querySelector<SVGElement>('.swatch path');
     if (path) path.dataset.slot = String(slot);
   }
 
   set stale(stale: boolean) {
     this.element.toggleAttribute('data-stale', stale);
-  }
-
-  set faded(faded: boolean) {
-    this.element.toggleAttribute('data-faded', faded);
   }
 
   /** Colors, lines of equal value, and where the section runs. */
@@ -158,10 +147,6 @@ export class FieldPanel {
       handle?.style.setProperty('--fill', colors.css(values[i] as number));
       handle?.toggleAttribute('data-outlier', outliers.includes(i));
     }
-  }
-
-  handle(i: number): HTMLElement | undefined {
-    return this.#handles.element(i);
   }
 
   dispose(): void {

@@ -1,6 +1,6 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { Channels, Parameter, StateOf } from './channel.ts';
-import type { Preset } from './state-text.ts';
+import type { Mend, Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
 export interface Work<M = unknown> {
@@ -15,18 +15,32 @@ export interface Work<M = unknown> {
 }
 
 /** What a panel can ask for. */
-export interface Kit<S> {
+export interface Kit<S, M = unknown> {
   readonly hb: HandlebodyRuntime;
   readonly state: S;
+  /** What was made last, once there is something. */
+  readonly made: M | undefined;
   /** Sets channels: what depends on them is made and drawn with the next frame. */
   change(patch: Partial<S>): void;
   /** Draws with the next frame, though nothing changed: another size, theme or pixel ratio. */
   redraw(): void;
+  /** As the page's address says the state: for parts of the program that are fetched when they are needed. */
+  readonly address: string;
+  /** Says what went wrong, in the figure's own line. */
+  tell(error: unknown): void;
+  /** Lets all in the pictures fade but what has this `data-key`; nothing for none. */
+  emphasize(key?: number): void;
+  /** Gives the focus, after the next frame, to the first of these that is seen; else to `other`. */
+  focus(selector: string, other?: HTMLElement | null): void;
 }
 
-/** A picture of a figure. */
+/** A picture of a figure, or what lies beside the pictures. */
 export interface Panel<M, S> {
-  open(kit: Kit<S>): OpenPanel<M, S>;
+  /** Above or below the controls, or in the row of the title; else among the pictures. */
+  readonly place?: 'above' | 'below' | 'tools';
+  /** Whether it is there in this state; it is opened when it is first. */
+  shown?(state: S): boolean;
+  open(kit: Kit<S, M>): OpenPanel<M, S> | Promise<OpenPanel<M, S>>;
 }
 
 export interface OpenPanel<M, S> {
@@ -47,6 +61,16 @@ export interface PartControl<S> {
   parameter(state: S): Parameter;
   read(state: S): unknown;
   write(state: S, value: never): Partial<S>;
+  /** Whether it matters; always, where this is left out. */
+  when?(state: S): boolean;
+}
+
+/** A choice between presets of two kinds, each of which is found again as it was left. */
+interface Sides<C extends Channels> {
+  readonly label: string;
+  readonly options: readonly (readonly [label: string, preset: string])[];
+  /** The number of the option that a state is of. */
+  of(state: StateOf<C>): number;
 }
 
 /** A figure: what can be set, what the solver makes of it, how that is drawn. */
@@ -56,19 +80,26 @@ export interface Figure<C extends Channels, M> {
   readonly title: string;
   /** What its state holds. Those with controls get them, in this order. */
   readonly parameters: C;
+  /** Above its controls. */
+  readonly heading?: string;
   /** Further controls, after these. */
   readonly parts?: readonly PartControl<StateOf<C>>[];
   /** The first one is how it begins. */
   readonly presets: readonly Preset<C>[];
+  readonly sides?: Sides<C>;
+  /** A small picture of a preset, for the row of them. */
+  thumbnail?(hb: HandlebodyRuntime, state: StateOf<C>): SVGSVGElement;
   /** What channels were called in links of before texts had a version: `from` is the preset. */
   readonly former?: Readonly<Record<string, keyof C | 'from'>>;
+  readonly mend?: Mend<C>;
   /** Channels for which nothing is made anew: `move` hears of them in each frame of a drag. */
   readonly moving?: readonly (keyof C)[];
   /** Channels that only the pictures depend on. */
   readonly shown?: readonly (keyof C)[];
   /** The whole solver is fetched, where a figure bakes or computes weights. */
   readonly whole?: boolean;
-  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>): M | Promise<M>;
+  /** `last` is what was made before: it may be changed and returned again. */
+  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>, last?: M): M | Promise<M>;
   /** Whether there is more to do with the next frame. */
   // biome-ignore lint/suspicious/noConfusingVoidType: most have nothing to say
   move?(made: M, state: StateOf<C>): boolean | void;
@@ -77,6 +108,8 @@ export interface Figure<C extends Channels, M> {
   readonly panels: Readonly<Record<string, Panel<M, StateOf<C>>>>;
   /** For readers, tables and the figure's test: the solver's own numbers. */
   told?(made: M, state: StateOf<C>): readonly Told[];
+  /** What is read aloud at rest, where that is not what is told. */
+  say?(made: M, state: StateOf<C>): string;
 }
 
 // biome-ignore lint/suspicious/noExplicitAny: a list holds figures of all kinds

@@ -1,9 +1,11 @@
-import { h, readable, svg } from '../../ui/dom.ts';
-import { Chart, type Curve, match } from './chart.ts';
+import { h, match, svg, write } from '../../ui/dom.ts';
+import { Chart, type Curve } from './chart.ts';
 import type { Kit, Panel } from './figure.ts';
-import { Handles } from './handles.ts';
-import { addPoint, movePoint, type PointSet, placeOf, removePoint, tidy } from './point-set.ts';
+import { Handles, type PointActions } from './handles.ts';
+import { type PointEditing, type PointOptions, pointActions } from './point-actions.ts';
+import { tidy } from './point-set.ts';
 import { asLong, type Frame, Samples } from './samples.ts';
+import { swatch } from './swatch.ts';
 
 /** A function of one number: an interpolant, or anything that fills an array. */
 interface Evaluable {
@@ -18,23 +20,33 @@ interface PlotHandle {
   move(x: number, y: number): void;
 }
 
-interface LinePlotOptions<M, S> {
+interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
   /** What the plot shows, for those who do not see it. */
   readonly label: string;
+  /** Above it. */
+  title?(state: S): string;
   /** Left, right, bottom, top. */
-  readonly frame: Frame;
-  draw(plot: LinePlot<S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
+  readonly frame: Frame | ((state: S) => Frame);
+  /** Places at which curves pass exactly, besides the even ones; the points, where this is left out. */
+  through?(state: S): readonly number[];
+  /** Lower than others: it goes with another one. */
+  readonly low?: boolean;
+  /** Points that are dragged, added by a double click and removed. */
+  readonly points?: PointOptions<M, S>;
+  draw(plot: LinePlot<M, S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
 }
 
 /** A panel with curves over a line, and handles on it. */
-export function linePlot<M, S>({ label, frame, draw }: LinePlotOptions<M, S>): Panel<M, S> {
+export function linePlot<M, S>(options: LinePlotOptions<M, S>): Panel<M, S> {
+  const { shown, draw } = options;
   return {
+    ...(shown && { shown }),
     open: (kit) => {
-      const plot = new LinePlot<S>(kit, label, frame);
+      const plot = new LinePlot<M, S>(kit, options);
       return {
         element: plot.element,
         draw: (made, state) => {
-          plot.begin();
+          plot.begin(state);
           draw(plot, made, state, kit.change);
           plot.end();
         },
@@ -46,46 +58,74 @@ export function linePlot<M, S>({ label, frame, draw }: LinePlotOptions<M, S>): P
 
 type Group = 'points' | 'others';
 
+interface CurveOptions {
+  readonly detail?: string;
+  readonly dashed?: boolean;
+  /** By which it is emphasized, and which color and dash it has; else its number. */
+  readonly key?: number;
+  readonly slot?: number;
+  readonly stale?: boolean;
+}
+
 /** What a figure draws with: curves and handles are named anew for each frame. */
-class LinePlot<S> {
+class LinePlot<M, S> {
   readonly element: HTMLElement;
-  readonly #kit: Kit<S>;
+  readonly #kit: Kit<S, M>;
+  readonly #options: Omit<LinePlotOptions<M, S>, 'draw'>;
   readonly #chart: Chart;
+  readonly #title = h('h3', { class: 'chart-title' });
+  /** Which line is whose, where there is no room beside the curves. */
+  readonly #legend = h('ul', { class: 'legend', 'aria-hidden': 'true' });
   readonly #samples = new Samples();
   readonly #areas = svg('g', { class: 'kernels' });
   readonly #rows: Float64Array[] = [];
-  readonly #groups: Readonly<Record<Group, Handles>>;
-  readonly #handles: Record<Group, readonly (PlotHandle & { remove?(): void })[]> = { points: [], others: [] };
-  #add: ((x: number, y: number) => void) | undefined;
+  readonly #points: PointEditing | undefined;
+  readonly #groups: readonly (readonly [Group, Handles, PointActions])[];
+  #handles: readonly PlotHandle[] = [];
   #curves: Curve[] = [];
   #paths: string[] = [];
   #rules: [at: string, words: string][] = [];
   #xs: Float64Array = new Float64Array();
   #used = 0;
-  #marks: readonly number[] = [];
+  #listed = '';
 
-  constructor(kit: Kit<S>, label: string, frame: Frame) {
-    this.#kit = kit;
+  constructor(kit: Kit<S, M>, options: Omit<LinePlotOptions<M, S>, 'draw'>) {
+    [this.#kit, this.#options] = [kit, options];
     this.#chart = new Chart(true, () => kit.redraw());
-    this.#chart.frame = frame;
+    this.#chart.frame = this.#frame(kit.state);
     this.#chart.under.append(this.#areas);
-    this.#chart.element.classList.add('main-chart');
+    this.#chart.element.classList.add(options.low ? 'low-chart' : 'main-chart');
     this.#chart.element.role = 'group';
-    this.#chart.element.ariaLabel = label;
-    this.#groups = { points: this.#group('points'), others: this.#group('others') };
-    this.element = h('div', { class: 'line-view' }, this.#chart.element);
+    this.#chart.element.ariaLabel = options.label;
+    this.#points = options.points && pointActions(kit, (state) => this.#frame(state), options.points);
+    const groups = [...(this.#points ? [['points', this.#points] as const] : []), ['others', this.#others()] as const];
+    this.#groups = groups.map(([name, actions]) => [name, this.#group(actions), actions] as const);
+    this.element = h(
+      'div',
+      { class: 'line-view' },
+      ...(options.title ? [this.#title] : []),
+      this.#chart.element,
+      ...(options.low ? [] : [this.#legend]),
+    );
   }
 
-  /** Places at which curves pass exactly, besides the even ones. */
-  through(places: readonly number[]): this {
-    this.#marks = places;
-    this.#xs = this.#samples.spread(this.#chart.frame, places);
-    return this;
+  /** Places at which functions are evaluated: even ones, and the points. */
+  get xs(): Float64Array {
+    return this.#xs;
   }
 
-  curve(name: string, f: Evaluable, { detail = '', dashed = false }: { detail?: string; dashed?: boolean } = {}): this {
-    const slot = this.#curves.length;
-    this.#curves.push({ key: slot + 1, slot, label: { name, detail }, xs: this.#xs, ys: this.#row(f), sum: dashed });
+  curve(name: string, f: Evaluable, { detail = '', dashed, key, slot, stale }: CurveOptions = {}): this {
+    const i = this.#curves.length;
+    const label = { name, detail };
+    this.#curves.push({
+      key: key ?? i + 1,
+      slot: slot ?? i,
+      label,
+      xs: this.#xs,
+      ys: this.#row(f),
+      sum: !!dashed,
+      stale: !!stale,
+    });
     return this;
   }
 
@@ -104,34 +144,22 @@ class LinePlot<S> {
     return this;
   }
 
-  /** The points of a channel: dragged, added by a double click, removed. */
-  points(key: keyof S & string): this {
-    const set = this.#kit.state[key] as PointSet;
-    const put = (changed: PointSet) => this.#kit.change({ [key]: changed } as Partial<S>);
-    this.#handles.points = set.values.map((value, i) => ({
-      name: `Point ${i}, x ${readable(set.places[i] ?? 0)}, value ${readable(value)}`,
-      at: placeOf(set, i),
-      move: (x, y) => put(movePoint(this.#kit.state[key] as PointSet, i, x, y)),
-      ...(set.values.length > 1 && { remove: () => put(removePoint(this.#kit.state[key] as PointSet, i)) }),
-    }));
-    this.#add = (x, y) => put(addPoint(this.#kit.state[key] as PointSet, [x], y));
-    return this;
-  }
-
   handles(handles: readonly PlotHandle[]): this {
-    this.#handles.others = handles;
+    this.#handles = handles;
     return this;
   }
 
-  begin(): void {
+  begin(state: S): void {
     [this.#curves, this.#paths, this.#rules, this.#used] = [[], [], [], 0];
+    write(this.#title, this.#options.title?.(state) ?? '');
     this.#chart.measure();
-    this.through(this.#marks);
+    this.#chart.frame = this.#frame(state);
+    this.#xs = this.#samples.spread(this.#chart.frame, this.#options.through?.(state) ?? this.#points?.set.places ?? []);
   }
 
   end(): void {
     this.#chart.draw(this.#curves);
-    match(this.#areas, 'path', this.#paths.length);
+    match(this.#areas, this.#paths.length, () => svg('path'));
     this.#paths.forEach((d, i) => {
       const path = this.#areas.children[i] as SVGPathElement;
       path.setAttribute('d', d);
@@ -143,14 +171,31 @@ class LinePlot<S> {
         svg('text', { x: at, y: 14, dx: 6 }, words),
       ]),
     );
-    for (const [kind, group] of Object.entries(this.#groups)) {
-      group.draw();
-      for (let i = 0; i < this.#handles[kind as Group].length; i++) group.element(i)?.setAttribute('data-kind', kind);
+    for (const [kind, handles, { count }] of this.#groups) {
+      handles.draw();
+      for (let i = 0; i < count; i++) {
+        handles.element(i)?.setAttribute('data-kind', kind);
+        handles.element(i)?.toggleAttribute('data-outlier', kind === 'points' && !!this.#points?.outliers.includes(i));
+      }
     }
+    this.#list();
   }
 
   dispose(): void {
     this.#chart.dispose();
+  }
+
+  #frame(state: S): Frame {
+    const { frame } = this.#options;
+    return typeof frame === 'function' ? frame(state) : frame;
+  }
+
+  #list(): void {
+    this.#legend.hidden = this.#chart.named;
+    const words = this.#curves.map(({ slot, label }) => [slot, [label.name, label.detail].filter(Boolean).join(', ')] as const);
+    if (String(words) === this.#listed) return;
+    this.#listed = String(words);
+    this.#legend.replaceChildren(...words.map(([slot, text]) => h('li', {}, swatch(slot), h('span', {}, text))));
   }
 
   #row(f: Evaluable): Float64Array {
@@ -160,31 +205,11 @@ class LinePlot<S> {
     return row;
   }
 
-  #group(name: Group): Handles {
-    const [chart, kit] = [this.#chart, this.#kit];
-    const list = () => this.#handles[name];
-    const spans = () => [chart.frame[1] - chart.frame[0], chart.frame[3] - chart.frame[2]] as const;
+  /** What happens to handles that are no points. */
+  #others(): PointActions {
+    const [kit, list] = [this.#kit, () => this.#handles];
     let picked = -1;
-    const move = (i: number, x: number, y: number) => {
-      const [left, right, bottom, top] = chart.frame;
-      const [wide, tall] = spans();
-      list()[i]?.move(tidy(Math.min(Math.max(x, left), right), wide), tidy(Math.min(Math.max(y, bottom), top), tall));
-    };
-    const board = {
-      get size() {
-        return [chart.width, chart.height] as const;
-      },
-      screen: (i: number) => {
-        const [x, y] = list()[i]?.at ?? [0, 0];
-        return [chart.x(x), chart.y(y)] as const;
-      },
-      place: (px: number, py: number) => chart.at(px, py),
-      drag: (i: number, px: number, py: number) => move(i, ...chart.at(px, py)),
-      get spans() {
-        return spans();
-      },
-    };
-    return new Handles(chart.area, board, {
+    return {
       get count() {
         return list().length;
       },
@@ -192,7 +217,11 @@ class LinePlot<S> {
         return picked;
       },
       placeOf: (i) => list()[i]?.at ?? [0, 0],
-      move,
+      move: (i, x, y) => {
+        const [left, right, bottom, top] = this.#chart.frame;
+        const [across, up] = [Math.min(Math.max(x, left), right), Math.min(Math.max(y, bottom), top)];
+        list()[i]?.move(tidy(across, right - left), tidy(up, top - bottom));
+      },
       hold: () => {
         const before = kit.state;
         return () => kit.change(before);
@@ -202,13 +231,33 @@ class LinePlot<S> {
         picked = i;
         kit.redraw();
       },
-      addAt: (x, y) => {
-        const [wide, tall] = spans();
-        if (name === 'points') this.#add?.(tidy(x, wide), tidy(y, tall));
-      },
-      remove: (i) => list()[i]?.remove?.(),
+      addAt: () => {},
+      remove: () => {},
       describe: (i) => list()[i]?.name ?? '',
       settle: () => {},
-    });
+    };
+  }
+
+  #group(actions: PointActions): Handles {
+    const chart = this.#chart;
+    return new Handles(
+      chart.area,
+      {
+        get size() {
+          return [chart.width, chart.height] as const;
+        },
+        screen: (i) => {
+          const [x, y] = actions.placeOf(i);
+          return [chart.x(x), chart.y(y)];
+        },
+        place: (px, py) => chart.at(px, py),
+        drag: (i, px, py) => actions.move(i, ...chart.at(px, py)),
+        get spans() {
+          const [left, right, bottom, top] = chart.frame;
+          return [right - left, top - bottom] as const;
+        },
+      },
+      actions,
+    );
   }
 }

@@ -1,5 +1,6 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
+import { leftOut } from '../../ui/address.ts';
 import { h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import { NotFetched } from '../../ui/lazy.ts';
@@ -8,10 +9,10 @@ import { PageError } from '../../ui/page-error.ts';
 import { Progress } from '../../ui/progress.ts';
 import { Trouble } from '../../ui/trouble.ts';
 import type { Channels, StateOf } from './channel.ts';
-import { type PartShown, partControl, partsOf } from './controls.ts';
-import type { Figure, Kit, OpenPanel, Told, Work } from './figure.ts';
+import { type PartShown, partControls, partsOf } from './controls.ts';
+import type { Figure, Kit, OpenPanel, Panel, Told, Work } from './figure.ts';
 import { savePicture } from './save-picture.ts';
-import { fromText, type Preset, stateOfPreset, toText } from './state-text.ts';
+import { fromText, type Preset, type ReadState, stateOfPreset, toText } from './state-text.ts';
 import { brief } from './words.ts';
 
 /** Milliseconds without a change after which a figure is at rest: it tells its state, speaks, and draws finely. */
@@ -29,6 +30,8 @@ interface LiveOptions {
   readonly solvers: Solvers;
   /** The state's line of text. */
   readonly state?: string;
+  /** The page's address for such a line; the line itself where this is left out. */
+  readonly address?: (text: string) => string;
   /** The state has changed and come to rest. A step back should lead to before it where it is another preset. */
   readonly onChange?: (text: string, preset: boolean) => void;
 }
@@ -37,10 +40,19 @@ interface Disposable {
   dispose?(): void;
 }
 
+/** A panel of the figure, where it lies, and itself once it was shown. */
+interface Slot<M, S> {
+  readonly panel: Panel<M, S>;
+  readonly place: HTMLElement;
+  opened?: OpenPanel<M, S>;
+}
+
 interface Shown<C extends Channels> {
   readonly preset: Preset<C>;
   readonly state: StateOf<C>;
 }
+
+let nextSides = 1;
 
 /** A figure on a page: its state, what was made of it, its pictures and controls. */
 export class Live<C extends Channels, M extends Disposable> {
@@ -53,15 +65,21 @@ export class Live<C extends Channels, M extends Disposable> {
   readonly #trouble = new Trouble(this.#said, () => this.element.querySelector('button'));
   /** What of a link could not be read, until something is changed. */
   readonly #notice = h('p', { class: 'notice', role: 'status', hidden: true });
+  readonly #note = new Trouble(this.#notice, () => this.element.querySelector('button'));
   readonly #busy = h('div', { class: 'progress', hidden: true });
   readonly #progress = new Progress(this.#busy);
   readonly #pictures = h('div', { class: 'panels' });
   readonly #caption = h('p', { class: 'caption' });
   readonly #facts = h('dl', { class: 'facts' });
   readonly #spoken = h('p', { class: 'unseen', role: 'status' });
-  readonly #controls: PartShown<StateOf<C>>[];
+  readonly #controls: PartShown<StateOf<C>>;
   readonly #presets = new Map<string, HTMLButtonElement>();
-  #panels: OpenPanel<M, StateOf<C>>[] = [];
+  readonly #slots: readonly Slot<M, StateOf<C>>[];
+  readonly #sides: readonly HTMLInputElement[];
+  /** The sides that are not shown, as they were left. */
+  readonly #aside = new Map<number, Shown<C>>();
+  /** What the pictures are to show alone: the rest fades. */
+  #emphasis: number | undefined;
   #hb: HandlebodyRuntime | undefined;
   #preset: Preset<C>;
   #state: StateOf<C>;
@@ -82,10 +100,19 @@ export class Live<C extends Channels, M extends Disposable> {
   constructor(figure: Figure<C, M>, options: LiveOptions) {
     this.#figure = figure;
     this.#options = options;
-    const read = fromText(figure.parameters, figure.presets, options.state ?? '', figure.former);
+    const read = this.#read(options.state ?? '');
     [this.#preset, this.#state] = [read.preset, read.state];
-    this.#controls = partsOf(figure).map((part) =>
-      partControl(part, this.#state, (value) => this.change(part.write(this.#visible, value as never))),
+    this.#controls = partControls(partsOf(figure), this.#state, (part, value) =>
+      this.change(part.write(this.#visible, value as never)),
+    );
+    this.#slots = Object.values(figure.panels).map((panel) => {
+      const place = h('div', { hidden: true });
+      place.style.display = 'contents';
+      return { panel, place };
+    });
+    const name = `sides-${nextSides++}`;
+    this.#sides = (figure.sides?.options ?? []).map((_, side) =>
+      h('input', { type: 'radio', name, onchange: () => this.#turnTo(side) }),
     );
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;
@@ -103,7 +130,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   set state(text: string) {
     if (text === this.state) return;
-    const read = fromText(this.#figure.parameters, this.#figure.presets, text, this.#figure.former);
+    const read = this.#read(text);
     this.#preset = read.preset;
     // Whoever asked is told what came of it, though it be what was shown before.
     this.#text = '';
@@ -127,7 +154,7 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   change(patch: Partial<StateOf<C>>): void {
-    tell(this.#notice, '');
+    this.#note.clear();
     const { moving = [], shown = [] } = this.#figure;
     const isLight = (key: string) => moving.includes(key) || shown.includes(key);
     const keys = Object.keys(patch);
@@ -173,17 +200,19 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#work?.abort();
     clearTimeout(this.#timer);
     cancelAnimationFrame(this.#frame);
-    for (const panel of this.#panels) panel.dispose();
+    for (const { opened } of this.#slots) opened?.dispose();
     this.#made?.dispose?.();
     this.element.remove();
   }
 
   #lay(): void {
-    const { presets, title } = this.#figure;
+    const { presets, title, sides, heading } = this.#figure;
     this.#title.textContent = title;
     const row = h('div', { class: 'presets', role: 'group', 'aria-label': 'Presets' });
+    row.toggleAttribute('data-film', this.#figure.thumbnail !== undefined);
     for (const preset of presets) {
-      const button = h('button', { type: 'button', class: 'button small', onclick: () => this.#begin(preset) }, preset.name);
+      const act = () => this.#begin(preset);
+      const button = h('button', { type: 'button', class: 'button small', onclick: act }, h('span', {}, preset.name));
       this.#presets.set(preset.id, button);
       row.append(button);
     }
@@ -198,9 +227,22 @@ export class Live<C extends Channels, M extends Disposable> {
       tool('SVG', save('svg')),
       tool('PNG', save('png')),
     );
-    const controls = h('div', { class: 'controls' }, ...this.#controls.map(({ element }) => element), this.#facts);
+    const of = (wanted: Panel<M, StateOf<C>>['place']) =>
+      this.#slots.filter(({ panel }) => panel.place === wanted).map(({ place }) => place);
+    this.#pictures.append(...of(undefined));
+    const controls = h(
+      'div',
+      { class: 'controls' },
+      ...of('above'),
+      ...(heading ? [h('h3', {}, heading)] : []),
+      this.#controls.element,
+      ...of('below'),
+      this.#facts,
+    );
+    const labels = this.#sides.map((input, i) => h('label', {}, input, h('span', {}, sides?.options[i]?.[0] ?? '')));
+    const choice = h('fieldset', { class: 'segmented' }, h('legend', { class: 'unseen' }, sides?.label ?? ''), ...labels);
     this.element.append(
-      this.#title,
+      h('div', { class: 'figure-head' }, this.#title, ...(sides ? [choice] : []), h('div', { class: 'tools' }, ...of('tools'))),
       this.#said,
       this.#notice,
       h(
@@ -226,11 +268,9 @@ export class Live<C extends Channels, M extends Disposable> {
       const { solvers } = this.#options;
       this.#hb = await (this.#figure.whole ? solvers.whole() : solvers.runtime());
       if (this.#disposed) return;
-      const kit: Kit<StateOf<C>> = this.#kit(this.#hb);
-      this.#panels = Object.values(this.#figure.panels).map((panel) => panel.open(kit));
-      this.#pictures.append(...this.#panels.map(({ element }) => element));
-      this.#pictures.dataset.count = String(this.#panels.length);
       this.#stir();
+      this.#picturePresets(this.#hb, [...this.#figure.presets]);
+      this.#showChosen();
     } catch (error) {
       this.element.dataset.state = 'failed';
       this.element.dataset.rest = 'yes';
@@ -238,21 +278,92 @@ export class Live<C extends Channels, M extends Disposable> {
     }
   }
 
-  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>> {
+  /** Small pictures, one after another, when there is time. */
+  #picturePresets(hb: HandlebodyRuntime, presets: Preset<C>[]): void {
+    const preset = presets.shift();
+    if (!preset || !this.#figure.thumbnail || this.#disposed) return;
+    const draw = () => {
+      const picture = this.#figure.thumbnail?.(hb, stateOfPreset(this.#figure.parameters, preset));
+      if (picture) this.#presets.get(preset.id)?.prepend(picture);
+      this.#picturePresets(hb, presets);
+    };
+    if ('requestIdleCallback' in globalThis) requestIdleCallback(draw);
+    else setTimeout(draw, 50);
+  }
+
+  /** The panels that a state shows; those that were not shown before may have to be fetched first. */
+  #openPanels(hb: HandlebodyRuntime, state: StateOf<C>): Promise<unknown> | undefined {
+    const coming = this.#slots.flatMap((slot) => {
+      if (slot.opened || !(slot.panel.shown?.(state) ?? true)) return [];
+      const opening = slot.panel.open(this.#kit(hb));
+      const keep = (opened: OpenPanel<M, StateOf<C>>) => {
+        if (slot.opened || this.#disposed) opened.dispose();
+        else slot.opened = opened;
+      };
+      return opening instanceof Promise ? [opening.then(keep)] : (keep(opening) ?? []);
+    });
+    return coming.length > 0 ? Promise.all(coming) : undefined;
+  }
+
+  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>, M> {
+    const made = () => this.#made;
     const state = () => this.#visible;
+    const address = () => this.#options.address?.(this.state) ?? this.state;
     return {
       hb,
       get state() {
         return state();
       },
+      get made() {
+        return made();
+      },
       change: (patch) => this.change(patch),
       redraw: () => this.#stir(),
+      get address() {
+        return address();
+      },
+      tell: (error) => this.#trouble.tell(error),
+      emphasize: (key) => {
+        this.#emphasis = key;
+        this.#fade();
+      },
+      focus: (selector, other) =>
+        void requestAnimationFrame(() => {
+          const found = [...this.#pictures.querySelectorAll<HTMLElement>(selector)].find((element) => element.checkVisibility());
+          (found ?? other)?.focus();
+        }),
     };
   }
 
+  #fade(): void {
+    const key = this.#emphasis === undefined ? undefined : String(this.#emphasis);
+    for (const element of this.#pictures.querySelectorAll<HTMLElement | SVGElement>('[data-key]'))
+      element.toggleAttribute('data-faded', key !== undefined && element.dataset.key !== key);
+  }
+
+  #read(text: string): ReadState<C> {
+    const { parameters, presets, former, mend } = this.#figure;
+    return fromText(parameters, presets, text, former, mend);
+  }
+
+  #turnTo(side: number): void {
+    const { sides, presets, parameters } = this.#figure;
+    this.#aside.set(sides?.of(this.#state) ?? 0, { preset: this.#preset, state: this.#state });
+    const preset = presets.find(({ id }) => id === sides?.options[side]?.[1]);
+    const kept = this.#aside.get(side) ?? (preset && { preset, state: stateOfPreset(parameters, preset) });
+    if (!kept) return;
+    this.#choose(kept);
+  }
+
   #begin(preset: Preset<C>): void {
+    this.#choose({ preset, state: stateOfPreset(this.#figure.parameters, preset) });
+  }
+
+  #choose({ preset, state }: Shown<C>): void {
+    // A step back leads to before it, though that has not come to rest yet.
+    this.#text ||= this.state;
     this.#preset = preset;
-    this.change(stateOfPreset(this.#figure.parameters, preset));
+    this.change(state);
   }
 
   #stir(): void {
@@ -287,13 +398,13 @@ export class Live<C extends Channels, M extends Disposable> {
       this.#progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
     }, PATIENCE);
     try {
-      const making = this.#figure.make(this.#hb as HandlebodyRuntime, state, this.#worker(work.signal));
+      const making = this.#making(this.#hb as HandlebodyRuntime, state, work.signal);
       if (making instanceof Promise) this.#work = work;
       const made = making instanceof Promise ? await making : making;
-      if (work.signal.aborted || this.#disposed) made.dispose?.();
+      if ((work.signal.aborted || this.#disposed) && made !== this.#made) made.dispose?.();
       if (this.#disposed) return;
       work.signal.throwIfAborted();
-      this.#made?.dispose?.();
+      if (made !== this.#made) this.#made?.dispose?.();
       this.#made = made;
       this.#unmoved = true;
       this.#good = { preset, state };
@@ -302,7 +413,7 @@ export class Live<C extends Channels, M extends Disposable> {
     } catch (error) {
       // What was asked for meanwhile tells its own end.
       if (this.#disposed || (work.signal.aborted && this.#work !== work)) return;
-      this.#failed(error, state);
+      this.#failed(error, { preset, state });
     } finally {
       clearTimeout(patience);
       if (this.#work === work) this.#end();
@@ -310,13 +421,37 @@ export class Live<C extends Channels, M extends Disposable> {
     }
   }
 
+  /** What is beside the pictures waits for none of them. */
+  #making(hb: HandlebodyRuntime, state: StateOf<C>, signal: AbortSignal): M | Promise<M> {
+    const make = () => this.#figure.make(hb, state, this.#worker(signal), this.#made);
+    const opening = this.#openPanels(hb, state);
+    if (!opening) return make();
+    // Heard of below, unless something else goes wrong before.
+    opening.catch(() => {});
+    if (this.#made)
+      return opening.then(() => {
+        signal.throwIfAborted();
+        return make();
+      });
+    const first = async () => {
+      const made = await make();
+      this.#paint(made);
+      await opening.catch((error: unknown) => {
+        made.dispose?.();
+        throw error;
+      });
+      return made;
+    };
+    return first();
+  }
+
   #end(): void {
     this.#work = undefined;
     this.#progress.end();
   }
 
-  #failed(error: unknown, asked: StateOf<C>): void {
-    const again = () => this.change(asked);
+  #failed(error: unknown, asked: Shown<C>): void {
+    const again = () => this.#choose(asked);
     if (!isAbort(error)) this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {
@@ -338,8 +473,8 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#state = preset;
     this.#unmade = true;
     this.#stir();
-    const { message } = explain(error);
-    tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message}`);
+    const { message, remedy } = explain(error);
+    this.#note.tell(new PageError('not-made', `What the link asks for cannot be made, so the preset is shown. ${message}`, remedy));
   }
 
   #worker(signal: AbortSignal): Work<M> {
@@ -364,7 +499,19 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #paint(made: M): void {
     this.#attempt(() => {
-      for (const panel of this.#panels) panel.draw(made, this.#visible);
+      const state = this.#visible;
+      let count = 0;
+      for (const { panel, place, opened } of this.#slots) {
+        const shown = opened !== undefined && (panel.shown?.(state) ?? true);
+        place.hidden = !shown;
+        // What is not shown is not in the page, so that nothing finds it there.
+        if (!shown) place.replaceChildren();
+        else if (opened.element.parentElement !== place) place.append(opened.element);
+        if (shown && !panel.place) count++;
+      }
+      this.#pictures.dataset.count = String(count);
+      for (const { place, opened } of this.#slots) if (!place.hidden) opened?.draw(made, state);
+      this.#fade();
     });
   }
 
@@ -385,13 +532,14 @@ export class Live<C extends Channels, M extends Disposable> {
           this.#figure.settle(made, this.#state);
           this.#paint(made);
         }
-        for (const panel of this.#panels) panel.refine?.(made, this.#state);
+        for (const { place, opened } of this.#slots) if (!place.hidden) opened?.refine?.(made, this.#state);
         this.#told = this.#figure.told?.(made, this.#state) ?? [];
       });
     }
     const words = this.#told.map(([name, value]) => [name, typeof value === 'number' ? brief(value) : value] as const);
     this.#facts.replaceChildren(...words.flatMap(([name, value]) => [h('dt', {}, name), h('dd', {}, value)]));
-    this.#spoken.textContent = words.map(([name, value]) => `${name}: ${value}.`).join(' ');
+    const say = made && this.#figure.say?.(made, this.#state);
+    this.#spoken.textContent = say ?? words.map(([name, value]) => `${name}: ${value}.`).join(' ');
     const { state } = this;
     if (state !== this.#text) {
       const another = this.#text !== '' && state === `v1&${this.#preset.id}`;
@@ -403,14 +551,28 @@ export class Live<C extends Channels, M extends Disposable> {
 
   /** The controls, the caption and the row of presets say what the state is. */
   #show(): void {
-    for (const control of this.#controls) control.show(this.#state);
+    this.#controls.show(this.#state);
+    const side = this.#figure.sides?.of(this.#state);
+    for (const [i, input] of this.#sides.entries()) input.checked = i === side;
     // Nothing is shown, so nothing is chosen: any of it can be asked for.
     if (this.element.dataset.state === 'failed' && !this.#work)
       for (const radio of this.element.querySelectorAll<HTMLInputElement>('input[type=radio]')) radio.checked = false;
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
     this.#title.textContent = title;
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
+    const another = this.#presets.get(this.#preset.id)?.ariaPressed !== 'true';
     for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);
+    if (another) this.#showChosen();
+  }
+
+  /** Along its row only: the page does not move. */
+  #showChosen(): void {
+    const button = this.#presets.get(this.#preset.id);
+    const row = button?.parentElement;
+    if (!button || !row) return;
+    const from = button.offsetLeft - row.offsetLeft;
+    if (from < row.scrollLeft || from + button.offsetWidth > row.scrollLeft + row.clientWidth)
+      row.scrollLeft = from - (row.clientWidth - button.offsetWidth) / 2;
   }
 
   #attempt(work: () => void): void {
@@ -421,20 +583,19 @@ export class Live<C extends Channels, M extends Disposable> {
     }
   }
 
-  #sayLeft({ left, newer }: { readonly left: readonly string[]; readonly newer: boolean }): void {
-    const parts = left.map((part) => `“${shortened(part)}”`).join(', ');
-    if (newer) tell(this.#notice, 'This link was made by a newer version of the page: the figure begins as its preset has it.');
-    else tell(this.#notice, left.length > 0 ? `Of the link this could not be read and was left out: ${parts}.` : '');
+  #sayLeft({ left, newer }: ReadState<C>): void {
+    const said = newer ? madeLater() : leftOut(left);
+    if (said) this.#note.tell(said);
+    else this.#note.clear();
   }
 }
 
-function tell(element: HTMLElement, text: string): void {
-  element.textContent = text;
-  element.hidden = text === '';
-}
-
-function shortened(text: string): string {
-  return text.length > 40 ? `${text.slice(0, 39)}…` : text;
+function madeLater(): PageError {
+  return new PageError(
+    'newer-link',
+    'This link was made by a newer version of the page.',
+    'The figure begins as its preset has it. Reload the page to get the newest version.',
+  );
 }
 
 function withoutWorker(): PageError {

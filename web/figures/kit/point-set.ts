@@ -9,7 +9,7 @@ export interface PointSet {
 }
 
 /** More than these cannot be told apart. */
-const MOST_POINTS = 60;
+export const MOST_POINTS = 60;
 
 /** As every interpolant takes them. */
 export function dataOf({ dimension, places, values }: PointSet): { dimension: 1 | 2; points: number[]; values: number[] } {
@@ -35,8 +35,7 @@ function channelOf(initial: PointSet): Channel<PointSet> {
   const { dimension } = initial;
   return {
     initial,
-    write: ({ places, values }) =>
-      values.map((value, i) => [...places.slice(i * dimension, (i + 1) * dimension), value].join(',')).join(';'),
+    write: pointsText,
     read: (text) => {
       const rows = text.split(';').map((row) => row.split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part))));
       const sound = rows.every((row) => row.length === dimension + 1 && row.every((number) => Math.abs(number) < 1e9));
@@ -48,6 +47,10 @@ function channelOf(initial: PointSet): Channel<PointSet> {
       };
     },
   };
+}
+
+export function pointsText({ dimension, places, values }: PointSet): string {
+  return values.map((value, i) => [...places.slice(i * dimension, (i + 1) * dimension), value].join(',')).join(';');
 }
 
 /** Point `i` elsewhere: of a line both its place and its value. */

@@ -10,11 +10,7 @@ const EVEN = 400;
 export class Samples {
   #xs = new Float64Array(EVEN + 1);
 
-  /** Sorted; stays valid until `spread` is called again. */
-  get xs(): Float64Array {
-    return this.#xs;
-  }
-
+  /** Sorted; they stay valid until the next call. */
   spread([left, right]: Frame, points: readonly number[]): Float64Array {
     const count = EVEN + 1 + points.length;
     if (this.#xs.length !== count) this.#xs = new Float64Array(count);

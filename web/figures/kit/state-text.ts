@@ -1,3 +1,4 @@
+import { quoted } from '../../ui/address.ts';
 import type { Channels, StateOf } from './channel.ts';
 
 /*
@@ -24,10 +25,13 @@ export interface Preset<C extends Channels> {
 /** What channels were called in texts without a version. */
 type Former<C extends Channels> = Readonly<Record<string, keyof C | 'from'>>;
 
-interface ReadState<C extends Channels> {
+/** What follows from what a text says, named by its channels: a frame that holds its points. */
+export type Mend<C extends Channels> = (state: StateOf<C>, said: ReadonlySet<string>) => StateOf<C>;
+
+export interface ReadState<C extends Channels> {
   readonly preset: Preset<C>;
   readonly state: StateOf<C>;
-  /** What the text says that could not be read, as it stands there. */
+  /** What the text says that could not be read, as it is to be told. */
   readonly left: readonly string[];
   /** Written by a version of this format that is newer than this one: only its preset was taken. */
   readonly newer: boolean;
@@ -41,8 +45,8 @@ export function stateOfPreset<C extends Channels>(channels: C, preset: Preset<C>
 export function toText<C extends Channels>(channels: C, preset: Preset<C>, state: StateOf<C>): string {
   const base = stateOfPreset(channels, preset);
   const changed = Object.entries(channels).flatMap(([key, channel]) => {
-    const text = channel.write(state[key]);
-    return text === channel.write(base[key]) ? [] : [`${key}=${escaped(text)}`];
+    const text = channel.write(state[key], state);
+    return text === channel.write(base[key], base) ? [] : [`${key}=${escaped(text)}`];
   });
   return [`v${VERSION}`, ...(changed.length === 0 ? [preset.id] : [`from=${preset.id}`, ...changed])].join('&');
 }
@@ -53,33 +57,39 @@ export function fromText<C extends Channels>(
   presets: readonly Preset<C>[],
   text: string,
   former: Former<C> = {},
+  mend: Mend<C> = (state) => state,
 ): ReadState<C> {
   const [first] = presets;
   if (!first) throw new Error('A figure needs a preset.');
   const parts = text.replace(/^#/, '').split('&').filter(Boolean);
   const version = Number(/^v(\d+)$/.exec(parts[0] ?? '')?.[1] ?? Number.NaN);
   if (!Number.isNaN(version)) parts.shift();
-  let preset = first;
+  let preset: Preset<C> | undefined;
   const left: string[] = [];
-  const given: (readonly [part: string, key: string, text: string])[] = [];
+  const given = new Map<string, (readonly [part: string, text: string])[]>();
   for (const part of parts) {
     const at = part.indexOf('=');
     const [name, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
     const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
     const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
     if (named) preset = named;
-    else given.push([part, key, plain(value)]);
+    else if (Object.hasOwn(channels, key)) given.set(key, [...(given.get(key) ?? []), [part, plain(value)]]);
+    else left.push(quoted(plain(part)));
   }
+  const said = new Set(preset ? ['from'] : []);
+  preset ??= first;
   const state: Record<string, unknown> = { ...stateOfPreset(channels, preset) };
   const newer = version > VERSION;
-  if (!newer) {
-    for (const [part, key, value] of given) {
-      const read = Object.hasOwn(channels, key) ? channels[key]?.read(value) : undefined;
-      if (read === undefined) left.push(plain(part));
+  if (newer) return { preset, state: state as StateOf<C>, left: [], newer };
+  for (const [key, channel] of Object.entries(channels)) {
+    for (const [part, value] of given.get(key) ?? []) {
+      const read = channel.read(value, left, state);
+      if (read === undefined) left.push(quoted(plain(part)));
       else state[key] = read;
+      if (read !== undefined) said.add(key);
     }
   }
-  return { preset, state: state as StateOf<C>, left, newer };
+  return { preset, state: mend(state as StateOf<C>, said), left, newer };
 }
 
 /** Without what separates the parts, and what ends an address. */

@@ -51,16 +51,9 @@ type State = StateOf<typeof parameters>;
 /** The dog has more handles than the bar. */
 const heldBy = (state: State) => Math.min(state.handle, HANDLES[state.solid].length - 1);
 
-const solids = choice('Solid', Object.entries({ bar: 'Bar', dog: 'Dog' }) as ['bar' | 'dog', string][], { open: true });
+const solids = choice('Solid', { bar: 'Bar', dog: 'Dog' }, { open: true });
 const handles = Object.fromEntries(
-  Object.entries(HANDLES).map(([name, words]) => [
-    name,
-    choice(
-      'Handle',
-      words.map((word, i) => [String(i), word]),
-      { open: true },
-    ),
-  ]),
+  Object.entries(HANDLES).map(([name, words]) => [name, choice('Handle', Object.fromEntries(words.entries()), { open: true })]),
 );
 
 const parts: readonly PartControl<State>[] = [

@@ -54,7 +54,8 @@ export function figurePage(only?: string): void {
       const figure = (await parts.get(listed.id)?.(addressOf(listed, state)))?.default;
       if (!figure || asked !== mine) return;
       const onChange = (changed: string, step: boolean) => writeAddress(addressOf(listed, changed), step);
-      shown = { listed, live: new Live(figure, { solvers, state, onChange }) };
+      const address = (written: string) => addressOf(listed, written);
+      shown = { listed, live: new Live(figure, { solvers, state, address, onChange }) };
       main.append(shown.live.element);
     } catch (error) {
       if (asked === mine) line.tell(error, () => void open());

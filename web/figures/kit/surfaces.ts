@@ -19,10 +19,19 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import type { ColorMap } from '../../figures/kit/color-map.ts';
 import { h } from '../../ui/dom.ts';
 import { onInterruption } from '../../ui/screen.ts';
-import { type Experiment, MOST_POINTS } from './experiment.ts';
+import type { ColorMap } from './color-map.ts';
+import { MOST_POINTS } from './point-set.ts';
+import type { Frame } from './samples.ts';
+
+/** Points over the plane, and the part of it that is seen. */
+interface Ground {
+  readonly frame: Frame;
+  readonly places: readonly number[];
+  readonly values: readonly number[];
+  readonly picked: number;
+}
 
 /** Height of the color range, where the picture is one wide. */
 const HEIGHT = 0.55;
@@ -65,7 +74,7 @@ export class Surfaces {
     onInterruption(this.#renderer.domElement, say, redraw);
     const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
       const input = h('input', { type: 'range', min: low, max: high, step: 1, value, oninput: () => change(input.valueAsNumber) });
-      return h('label', {}, h('span', {}, label), input);
+      return h('label', { class: 'control' }, label, input);
     };
     this.controls = h(
       'div',
@@ -81,13 +90,14 @@ export class Surfaces {
     );
   }
 
+  /** `bare`: without the points. */
   paint(
     context: CanvasRenderingContext2D,
     values: Float64Array,
     size: number,
     colors: ColorMap,
-    experiment: Experiment,
-    cardinal: boolean,
+    ground: Ground,
+    bare: boolean,
   ): void {
     // The last picture stays.
     if (this.#renderer.getContext().isContextLost()) return;
@@ -107,11 +117,11 @@ export class Surfaces {
     this.#geometry.computeVertexNormals();
 
     this.#look();
-    this.#balls.count = cardinal ? 0 : experiment.values.length;
+    this.#balls.count = bare ? 0 : ground.values.length;
     for (let i = 0; i < this.#balls.count; i++) {
-      this.#locate(experiment, i, experiment.values[i] ?? 0);
+      this.#locate(ground, i, ground.values[i] ?? 0);
       this.#balls.setMatrixAt(i, this.#matrix.makeTranslation(this.#place));
-      this.#balls.setColorAt(i, this.#color.set(i === experiment.picked ? 0x1f5fc4 : 0xffffff));
+      this.#balls.setColorAt(i, this.#color.set(i === ground.picked ? 0x1f5fc4 : 0xffffff));
     }
     this.#balls.instanceMatrix.needsUpdate = true;
     if (this.#balls.instanceColor) this.#balls.instanceColor.needsUpdate = true;
@@ -123,27 +133,32 @@ export class Surfaces {
     context.drawImage(this.#renderer.domElement, 0, 0);
   }
 
-  screen(experiment: Experiment, i: number): readonly [number, number] {
-    return this.#project(experiment, i, experiment.values[i] ?? 0);
+  dispose(): void {
+    this.#renderer.dispose();
+    this.controls.remove();
   }
 
-  value(experiment: Experiment, i: number, down: number): number {
+  screen(ground: Ground, i: number): readonly [number, number] {
+    return this.#project(ground, i, ground.values[i] ?? 0);
+  }
+
+  value(ground: Ground, i: number, down: number): number {
     // Without perspective the height on the screen is linear in the value.
-    const [low, high] = [this.#project(experiment, i, this.#low)[1], this.#project(experiment, i, this.#high)[1]];
-    if (Math.abs(high - low) < 0.02) return experiment.values[i] ?? 0;
+    const [low, high] = [this.#project(ground, i, this.#low)[1], this.#project(ground, i, this.#high)[1]];
+    if (Math.abs(high - low) < 0.02) return ground.values[i] ?? 0;
     return this.#low + ((down - low) / (high - low)) * (this.#high - this.#low);
   }
 
-  #project(experiment: Experiment, i: number, value: number): readonly [number, number] {
+  #project(ground: Ground, i: number, value: number): readonly [number, number] {
     this.#look();
-    this.#locate(experiment, i, value);
+    this.#locate(ground, i, value);
     this.#place.project(this.#camera);
     return [(this.#place.x + 1) / 2, (1 - this.#place.y) / 2];
   }
 
   /** The place of a point in the scene. */
-  #locate({ frame: [left, right, bottom, top], points }: Experiment, i: number, value: number): void {
-    const [x, y] = [points[2 * i] ?? 0, points[2 * i + 1] ?? 0];
+  #locate({ frame: [left, right, bottom, top], places }: Ground, i: number, value: number): void {
+    const [x, y] = [places[2 * i] ?? 0, places[2 * i + 1] ?? 0];
     const level = (value - this.#low) / (this.#high - this.#low);
     this.#place.set((x - left) / (right - left) - 0.5, (level - 0.5) * HEIGHT, (top - y) / (top - bottom) - 0.5);
   }

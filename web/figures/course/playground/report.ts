@@ -1,14 +1,14 @@
-import type { HandlebodyRuntime, OutlierReport } from '../../../wasm/ts/runtime.ts';
-import { brief, conditionText, health } from '../../figures/kit/words.ts';
-import type { Experiment } from './experiment.ts';
+import type { HandlebodyRuntime, OutlierReport } from '../../../../wasm/ts/runtime.ts';
+import { brief, conditionText, health } from '../../kit/words.ts';
+import type { Show } from './experiment.ts';
 import type { Fit } from './fit.ts';
-import { dataOf } from './interpolants.ts';
+import type { Data } from './kind.ts';
 import { rbfOptions } from './rbf-kind.ts';
 
 /** What the page says aloud when something has come to rest. */
-export function summary(experiment: Experiment, fits: readonly Fit[], found: string): string {
+export function summary(points: number, fits: readonly Fit[], found: string): string {
   const shown = fits.filter(({ model }) => model.shown);
-  const count = `${shown.length} ${shown.length === 1 ? 'interpolant' : 'interpolants'} of ${experiment.values.length} points`;
+  const count = `${shown.length} ${shown.length === 1 ? 'interpolant' : 'interpolants'} of ${points} points`;
   const notes = shown.flatMap(({ label, problem, verdict, interpolant }) => {
     const name = [label.name, label.detail].filter(Boolean).join(', ');
     if (problem instanceof Error)
@@ -20,10 +20,13 @@ export function summary(experiment: Experiment, fits: readonly Fit[], found: str
 }
 
 /** The points that stand out, by the kernel of the first interpolant that has one. */
-export function searchOutliers(hb: HandlebodyRuntime, experiment: Experiment, fits: readonly Fit[]): OutlierReport | undefined {
-  const { outliers: method } = experiment.show;
-  if (method === 'off' || experiment.values.length < 3) return undefined;
-  const data = dataOf(experiment);
+export function searchOutliers(
+  hb: HandlebodyRuntime,
+  data: Data,
+  method: Show['outliers'],
+  fits: readonly Fit[],
+): OutlierReport | undefined {
+  if (method === 'off' || data.values.length < 3) return undefined;
   const settings = fits.find(({ model }) => model.kind === 'rbf' && model.shown && !model.settings.normalized)?.model.settings;
   const { kernel, width, order, metric } = rbfOptions(data, { kernel: 'gaussian', fit: 'auto', ...settings, centers: '1' });
   const degree =

@@ -4,11 +4,11 @@ import {
   type KernelFunction,
   type KernelName,
   type RbfOptions,
-} from '../../../wasm/ts/runtime.ts';
-import { brief } from '../../figures/kit/words.ts';
+} from '../../../../wasm/ts/runtime.ts';
+import { choice, range, toggle } from '../../kit/channel.ts';
+import { brief } from '../../kit/words.ts';
 import type { Settings } from './experiment.ts';
 import type { Data, Kind } from './kind.ts';
-import type { Parameter } from './parameter.ts';
 
 /** A kernel of one's own: it changes its sign and is positive definite on a line nevertheless. */
 const sinc: KernelFunction = (s) => (s === 0 ? 1 : Math.sin(Math.PI * s) / (Math.PI * s));
@@ -36,109 +36,49 @@ const info = (settings: Settings) => (settings.kernel === 'sinc' ? undefined : K
 const hasWidth = (settings: Settings) => info(settings)?.hasWidth ?? true;
 const hasOrder = ({ kernel }: Settings) => kernel === 'polyharmonic' || kernel === 'clamped-plate';
 
-const parameters: readonly Parameter[] = [
-  { type: 'choice', id: 'kernel', label: 'Kernel', initial: 'gaussian', options: KERNEL_NAMES },
-  {
-    type: 'choice',
-    id: 'fit',
-    label: 'Width',
-    initial: 'auto',
-    options: [
-      ['auto', 'from the spacing of the points'],
-      ['leave-one-out', 'with the least leave-one-out error'],
-      ['own', 'set by hand'],
-    ],
-    when: hasWidth,
-  },
-  {
-    type: 'range',
-    id: 'width',
-    label: 'Width by hand',
-    initial: 1,
-    low: 0.02,
-    high: 50,
-    scale: 'log',
-    when: (settings) => hasWidth(settings) && settings.fit === 'own',
-  },
-  { type: 'range', id: 'order', label: 'Order', initial: 2, low: 1, high: 4, scale: 'even', step: 1, when: hasOrder },
-  { type: 'range', id: 'smoothing', label: 'Smoothing', initial: 0, low: 1e-10, high: 10, scale: 'log-zero' },
-  { type: 'range', id: 'decay', label: 'Weight decay', initial: 0, low: 1e-10, high: 10, scale: 'log-zero', rare: true },
-  { type: 'switch', id: 'normalized', label: 'Normalized', initial: false, rare: true },
-  {
-    type: 'choice',
-    id: 'degree',
-    label: 'Polynomial tail',
-    initial: 'auto',
-    options: [
+const parameters = {
+  kernel: choice('Kernel', KERNEL_NAMES),
+  fit: choice('Width', {
+    auto: 'from the spacing of the points',
+    'leave-one-out': 'with the least leave-one-out error',
+    own: 'set by hand',
+  }),
+  width: range('Width by hand', { from: 0.02, to: 50, value: 1, scale: 'log' }),
+  order: range('Order', { from: 1, to: 4, value: 2, step: 1 }),
+  smoothing: range('Smoothing', { from: 1e-10, to: 10, value: 0, scale: 'log-zero' }),
+  decay: range('Weight decay', { from: 1e-10, to: 10, value: 0, scale: 'log-zero', rare: true }),
+  normalized: toggle('Normalized', false, { rare: true }),
+  degree: choice(
+    'Polynomial tail',
+    [
       ['auto', 'the lowest that is needed'],
       ['-1', 'none'],
       ['0', 'constant'],
       ['1', 'linear'],
       ['2', 'quadratic'],
     ],
-    rare: true,
-  },
-  {
-    type: 'range',
-    id: 'support',
-    label: 'Support, in widths',
-    initial: 4,
-    low: 1,
-    high: 8,
-    scale: 'even',
-    step: 0.1,
-    when: ({ kernel }) => kernel === 'compact-inverse-multiquadric',
-    rare: true,
-  },
-  {
-    type: 'choice',
-    id: 'centers',
-    label: 'Centers',
-    initial: '1',
-    options: [
-      ['1', 'at every point'],
-      ['2', 'at every second point'],
-      ['3', 'at every third point'],
-    ],
-    rare: true,
-  },
-  {
-    type: 'choice',
-    id: 'robust',
-    label: 'Misfits',
-    initial: 'all',
-    options: [
-      ['all', 'count by their squares'],
-      ['least-absolute', 'count by their size'],
-      ['least-median', 'of the better half count'],
-    ],
-    when: ({ centers }) => centers !== '1',
-    rare: true,
-  },
-  {
-    type: 'range',
-    id: 'stretch',
-    label: 'Stretch',
-    initial: 1,
-    low: 0.2,
-    high: 5,
-    scale: 'log',
-    when: (_, dimension) => dimension === 2,
-    rare: true,
-  },
-  {
-    type: 'range',
-    id: 'angle',
-    label: 'Stretch along, degrees',
-    initial: 0,
-    low: 0,
-    high: 180,
-    scale: 'even',
-    step: 1,
-    when: ({ stretch }, dimension) => dimension === 2 && stretch !== 1,
-    rare: true,
-  },
-];
+    { rare: true },
+  ),
+  support: range('Support, in widths', { from: 1, to: 8, value: 4, rare: true }),
+  centers: choice('Centers', { 1: 'at every point', 2: 'at every second point', 3: 'at every third point' }, { rare: true }),
+  robust: choice(
+    'Misfits',
+    { all: 'count by their squares', 'least-absolute': 'count by their size', 'least-median': 'of the better half count' },
+    { rare: true },
+  ),
+  stretch: range('Stretch', { from: 0.2, to: 5, value: 1, scale: 'log', rare: true }),
+  angle: range('Stretch along, degrees', { from: 0, to: 180, value: 0, step: 1, rare: true }),
+};
+
+const when: Kind['when'] = {
+  fit: hasWidth,
+  width: (settings) => hasWidth(settings) && settings.fit === 'own',
+  order: hasOrder,
+  support: ({ kernel }) => kernel === 'compact-inverse-multiquadric',
+  robust: ({ centers }) => centers !== '1',
+  stretch: (_, dimension) => dimension === 2,
+  angle: ({ stretch }, dimension) => dimension === 2 && stretch !== 1,
+};
 
 /** The solver's options for settings. */
 export function rbfOptions({ dimension, points, values }: Data, settings: Settings): RbfOptions {
@@ -176,6 +116,7 @@ export const rbf: Kind = {
   id: 'rbf',
   dimensions: [1, 2],
   parameters,
+  when,
   label({ kernel, fit, width, order, smoothing, decay, normalized, centers }) {
     const name = (KERNEL_NAMES.find(([id]) => id === kernel)?.[1] ?? 'RBF').replace(/,.*/, '');
     const details = [

@@ -1,20 +1,19 @@
-import { swatch } from '../../figures/kit/swatch.ts';
-import { brief, conditionText, health } from '../../figures/kit/words.ts';
-import { h } from '../../ui/dom.ts';
-import { type Control, controlOf } from './controls.ts';
-import type { Settings } from './experiment.ts';
+import { h, write } from '../../../ui/dom.ts';
+import { type PartShown, partControls } from '../../kit/controls.ts';
+import { swatch } from '../../kit/swatch.ts';
+import { brief, conditionText, health } from '../../kit/words.ts';
+import type { Setting, Settings } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { kindOf } from './interpolants.ts';
-import type { Parameter } from './parameter.ts';
 import { WarningList } from './warning-list.ts';
 import { WeightList } from './weight-list.ts';
 
-export interface CardActions {
+interface CardActions {
   set(key: number, settings: Settings): void;
   setShown(key: number, shown: boolean): void;
   remove(key: number): void;
-  /** Somebody looks at this one; 0: at none. */
-  emphasize(key: number): void;
+  /** Somebody looks at this one; or at none. */
+  emphasize(key?: number): void;
 }
 
 let nextId = 1;
@@ -23,14 +22,13 @@ let nextId = 1;
 export class Card {
   readonly element: HTMLElement;
   readonly fit: Fit;
-  readonly #dimension: 1 | 2;
   readonly #name = h('span', { class: 'name' });
   readonly #detail = h('span', { class: 'detail' });
   readonly #shown: HTMLInputElement;
   readonly #verdict = h('p', { class: 'verdict' });
   readonly #condition = h('span', { class: 'condition' });
   readonly #misfit = h('span');
-  readonly #controls: [Parameter, Control][];
+  readonly #controls: PartShown<Settings>;
   readonly #warnings: WarningList;
   readonly #weights = new WeightList();
   readonly #body: HTMLElement;
@@ -40,37 +38,28 @@ export class Card {
   constructor(fit: Fit, dimension: 1 | 2, open: boolean, actions: CardActions) {
     const { key, kind, slot } = fit.model;
     this.fit = fit;
-    this.#dimension = dimension;
     this.#shown = h('input', { type: 'checkbox', onchange: () => actions.setShown(key, this.#shown.checked) });
-    const parameters = kindOf(kind)?.parameters ?? [];
-    this.#controls = parameters.map((parameter) => [
-      parameter,
-      controlOf(parameter, (setting) => actions.set(key, { [parameter.id]: setting })),
-    ]);
-    const known = new Set(parameters.map(({ id }) => id));
+    const { parameters = {}, when = {} } = kindOf(kind) ?? {};
+    const parts = Object.entries(parameters).map(([id, parameter]) => ({
+      parameter: () => parameter,
+      read: (settings: Settings) => settings[id] ?? parameter.initial,
+      write: (_: Settings, value: Setting) => ({ [id]: value }),
+      when: (settings: Settings) => when[id]?.(settings, dimension) ?? true,
+    }));
+    this.#controls = partControls<Settings>(parts, fit.model.settings, (part, value) =>
+      actions.set(key, part.write({}, value as never) as Settings),
+    );
+    const known = new Set(Object.keys(parameters));
     this.#warnings = new WarningList(known, (settings) => actions.set(key, settings), this.#shown);
     this.#verdict.append(this.#condition, this.#misfit);
 
-    const of = (rare: boolean) =>
-      this.#controls.filter(([parameter]) => !!parameter.rare === rare).map(([, { element }]) => element);
     const id = `card-${nextId++}`;
-    this.#body = h('div', { class: 'card-body', id, hidden: !open }, ...of(false));
-    if (of(true).length > 0)
-      this.#body.append(
-        h('details', { class: 'more' }, h('summary', {}, 'More settings'), h('div', { class: 'card-more' }, ...of(true))),
-      );
-    this.#body.append(this.#weights.element);
-    if (parameters.length === 0) this.#body.append(h('p', { class: 'soft' }, 'There is nothing to set.'));
+    this.#body = h('div', { class: 'card-body', id, hidden: !open }, this.#controls.element, this.#weights.element);
 
-    this.#toggle = h('button', {
-      type: 'button',
-      class: 'tool-button chevron',
-      'aria-controls': id,
-      'aria-expanded': open,
-      onclick: () => this.open(this.#body.hidden),
-    });
+    const toggle = () => this.open(this.#body.hidden);
+    this.#toggle = h('button', { type: 'button', class: 'dismiss chevron', 'aria-controls': id, onclick: toggle });
     this.#toggle.ariaExpanded = String(open);
-    this.#remove = h('button', { type: 'button', class: 'tool-button', onclick: () => actions.remove(key) }, '×');
+    this.#remove = h('button', { type: 'button', class: 'dismiss', onclick: () => actions.remove(key) }, '×');
     const head = h(
       'div',
       { class: 'card-head' },
@@ -79,10 +68,8 @@ export class Card {
       this.#remove,
     );
     this.element = h('li', { class: 'card' }, head, this.#verdict, this.#warnings.element, this.#body);
-    this.element.addEventListener('pointerenter', () => actions.emphasize(key));
-    this.element.addEventListener('pointerleave', () => actions.emphasize(0));
-    this.element.addEventListener('focusin', () => actions.emphasize(key));
-    this.element.addEventListener('focusout', () => actions.emphasize(0));
+    for (const type of ['pointerenter', 'focusin']) this.element.addEventListener(type, () => actions.emphasize(key));
+    for (const type of ['pointerleave', 'focusout']) this.element.addEventListener(type, () => actions.emphasize());
   }
 
   get opened(): boolean {
@@ -131,24 +118,11 @@ export class Card {
   }
 
   #fill(): void {
-    const { settings } = this.fit.model;
-    for (const [parameter, control] of this.#controls) {
-      control.element.hidden = !(parameter.when?.(settings, this.#dimension) ?? true);
-      const setting = settings[parameter.id];
-      if (setting !== undefined) control.show(setting);
-    }
+    this.#controls.show(this.fit.model.settings);
     this.#weights.show(this.fit.verdict?.coefficients);
   }
 }
 
 function hasWidth({ model }: Fit): boolean {
-  return (
-    kindOf(model.kind)
-      ?.parameters.find(({ id }) => id === 'fit')
-      ?.when?.(model.settings, 1) ?? false
-  );
-}
-
-function write(element: HTMLElement, text: string): void {
-  if (element.textContent !== text) element.textContent = text;
+  return kindOf(model.kind)?.when?.fit?.(model.settings, 1) ?? false;
 }

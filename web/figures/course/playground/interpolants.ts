@@ -1,18 +1,19 @@
-import type { MovingWeight } from '../../../wasm/ts/runtime.ts';
-import type { Label } from '../../figures/kit/chart.ts';
-import { brief } from '../../figures/kit/words.ts';
-import { type Experiment, type Model, newModel, type Settings } from './experiment.ts';
-import type { Data, Kind } from './kind.ts';
-import { type Choice, complete } from './parameter.ts';
+import type { MovingWeight } from '../../../../wasm/ts/runtime.ts';
+import { choice, range } from '../../kit/channel.ts';
+import type { Label } from '../../kit/chart.ts';
+import { brief } from '../../kit/words.ts';
+import { type Model, newModel, type Settings } from './experiment.ts';
+import { complete, type Kind } from './kind.ts';
 import { KERNEL_NAMES, rbf } from './rbf-kind.ts';
+
+const power = (value: number) => range('Power p', { from: 0.5, to: 8, value });
+const logarithmic = (label: string, from: number, to: number, value = 0) => range(label, { from, to, value, scale: 'log-zero' });
+const epsilon = logarithmic('ε', 1e-3, 3);
 
 const shepard: Kind = {
   id: 'shepard',
   dimensions: [1, 2],
-  parameters: [
-    { type: 'range', id: 'power', label: 'Power p', initial: 2, low: 0.5, high: 8, scale: 'even', step: 0.1 },
-    { type: 'range', id: 'epsilon', label: 'ε', initial: 0, low: 1e-3, high: 3, scale: 'log-zero' },
-  ],
+  parameters: { power: power(2), epsilon },
   label: ({ power, epsilon }) => ({
     name: 'Shepard',
     detail: `p = ${brief(power as number)}${epsilon ? `, ε = ${brief(epsilon as number)}` : ''}`,
@@ -23,72 +24,20 @@ const shepard: Kind = {
 const movingLeastSquares: Kind = {
   id: 'mls',
   dimensions: [1, 2],
-  parameters: [
-    {
-      type: 'choice',
-      id: 'degree',
-      label: 'Polynomial',
-      initial: '1',
-      options: [
-        ['0', 'constant'],
-        ['1', 'linear'],
-        ['2', 'quadratic'],
-      ],
-    },
-    {
-      type: 'choice',
-      id: 'weight',
-      label: 'Weight',
-      initial: 'inverse-distance',
-      options: [
-        ['inverse-distance', 'inverse distance'],
-        ['gaussian', 'Gaussian'],
-        ['wendland', 'Wendland'],
-      ],
-    },
-    {
-      type: 'range',
-      id: 'power',
-      label: 'Power p',
-      initial: 4,
-      low: 0.5,
-      high: 8,
-      scale: 'even',
-      step: 0.1,
-      when: ({ weight }) => weight === 'inverse-distance',
-    },
-    {
-      type: 'range',
-      id: 'epsilon',
-      label: 'ε',
-      initial: 0,
-      low: 1e-3,
-      high: 3,
-      scale: 'log-zero',
-      when: ({ weight }) => weight === 'inverse-distance',
-    },
-    {
-      type: 'choice',
-      id: 'fit',
-      label: 'Width',
-      initial: 'auto',
-      options: [
-        ['auto', 'from the spacing of the points'],
-        ['own', 'set by hand'],
-      ],
-      when: ({ weight }) => weight !== 'inverse-distance',
-    },
-    {
-      type: 'range',
-      id: 'width',
-      label: 'Width by hand',
-      initial: 2,
-      low: 0.02,
-      high: 50,
-      scale: 'log',
-      when: ({ weight, fit }) => weight !== 'inverse-distance' && fit === 'own',
-    },
-  ],
+  parameters: {
+    degree: choice('Polynomial', { 0: 'constant', 1: 'linear', 2: 'quadratic' }, { value: '1' }),
+    weight: choice('Weight', { 'inverse-distance': 'inverse distance', gaussian: 'Gaussian', wendland: 'Wendland' }),
+    power: power(4),
+    epsilon,
+    fit: choice('Width', { auto: 'from the spacing of the points', own: 'set by hand' }),
+    width: range('Width by hand', { from: 0.02, to: 50, value: 2, scale: 'log' }),
+  },
+  when: {
+    power: ({ weight }) => weight === 'inverse-distance',
+    epsilon: ({ weight }) => weight === 'inverse-distance',
+    fit: ({ weight }) => weight !== 'inverse-distance',
+    width: ({ weight, fit }) => weight !== 'inverse-distance' && fit === 'own',
+  },
   label: ({ degree, weight, power, epsilon, fit, width }) => ({
     name: 'Moving least squares',
     detail: [
@@ -111,21 +60,12 @@ const movingLeastSquares: Kind = {
     }),
 };
 
-const outside: Choice = {
-  type: 'choice',
-  id: 'outside',
-  label: 'Outside the hull',
-  initial: 'nearest',
-  options: [
-    ['nearest', 'the value of the nearest place in it'],
-    ['nan', 'nothing'],
-  ],
-};
+const outside = choice('Outside the hull', { nearest: 'the value of the nearest place in it', nan: 'nothing' });
 
 const simplexLinear: Kind = {
   id: 'linear',
   dimensions: [1, 2],
-  parameters: [outside],
+  parameters: { outside },
   label: (_, dimension) => ({ name: dimension === 1 ? 'Piecewise linear' : 'Linear on triangles', detail: '' }),
   make: (hb, data, settings) => hb.simplexLinear({ ...data, outside: settings.outside as 'nearest' | 'nan' }),
 };
@@ -133,7 +73,7 @@ const simplexLinear: Kind = {
 const naturalNeighbor: Kind = {
   id: 'natural',
   dimensions: [2],
-  parameters: [outside],
+  parameters: { outside },
   label: () => ({ name: 'Natural neighbor', detail: '' }),
   make: (hb, data, settings) => hb.naturalNeighbor({ ...data, dimension: 2, outside: settings.outside as 'nearest' | 'nan' }),
 };
@@ -141,23 +81,14 @@ const naturalNeighbor: Kind = {
 const tensionSpline: Kind = {
   id: 'tension',
   dimensions: [1, 2],
-  parameters: [
-    { type: 'range', id: 'alpha', label: 'α, against curvature', initial: 1, low: 1e-3, high: 100, scale: 'log-zero' },
-    { type: 'range', id: 'beta', label: 'β, against slope', initial: 0, low: 1e-3, high: 1000, scale: 'log-zero' },
-    { type: 'range', id: 'gamma', label: 'γ, against size', initial: 0, low: 1e-3, high: 1000, scale: 'log-zero' },
-    { type: 'range', id: 'smoothing', label: 'Smoothing', initial: 0, low: 1e-6, high: 10, scale: 'log-zero' },
-    {
-      type: 'choice',
-      id: 'ends',
-      label: 'Ends',
-      initial: 'natural',
-      options: [
-        ['natural', 'natural'],
-        ['zero-slope', 'with zero slope'],
-      ],
-      when: (_, dimension) => dimension === 1,
-    },
-  ],
+  parameters: {
+    alpha: logarithmic('α, against curvature', 1e-3, 100, 1),
+    beta: logarithmic('β, against slope', 1e-3, 1000),
+    gamma: logarithmic('γ, against size', 1e-3, 1000),
+    smoothing: logarithmic('Smoothing', 1e-6, 10),
+    ends: choice('Ends', { natural: 'natural', 'zero-slope': 'with zero slope' }),
+  },
+  when: { ends: (_, dimension) => dimension === 1 },
   label: ({ beta, gamma, smoothing, ends }, dimension) => ({
     name: beta ? 'Tension spline' : dimension === 1 ? 'Cubic spline' : 'Smoothing spline',
     detail: [
@@ -222,8 +153,3 @@ export const OFFERS: readonly { group: string; offers: readonly { kind: string; 
     offers: KERNEL_NAMES.map(([kernel, name]) => ({ kind: 'rbf', settings: { kernel }, name: name.replace(/,.*/, '') })),
   },
 ];
-
-/** The points of an experiment as data. */
-export function dataOf({ dimension, points, values }: Experiment): Data {
-  return { dimension, points, values };
-}

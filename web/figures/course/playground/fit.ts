@@ -1,6 +1,6 @@
-import type { HandlebodyRuntime, Interpolant, Rbf, RbfReport } from '../../../wasm/ts/runtime.ts';
-import type { Label } from '../../figures/kit/chart.ts';
-import { PageError } from '../../ui/page-error.ts';
+import type { HandlebodyRuntime, Interpolant, Rbf, RbfReport } from '../../../../wasm/ts/runtime.ts';
+import { PageError } from '../../../ui/page-error.ts';
+import type { Label } from '../../kit/chart.ts';
 import type { Model } from './experiment.ts';
 import { kindOf, labelOf } from './interpolants.ts';
 import type { Data } from './kind.ts';
@@ -16,17 +16,25 @@ interface Verdict {
 
 /** A model that is solved. Data or settings that the solver refuses leave the last good interpolant, so that there is a picture. */
 export class Fit {
-  readonly model: Model;
+  model: Model;
   label: Label;
   /** Why the picture is not of the present data and settings. */
   problem: unknown;
   verdict: Verdict | undefined;
   #interpolant: Interpolant | undefined;
   #misses = new Float64Array();
+  #solved: Data | undefined;
 
   constructor(model: Model, dimension: 1 | 2) {
     this.model = model;
     this.label = labelOf(model, dimension);
+  }
+
+  /** Solves it where its settings or the points are others than before. */
+  update(hb: HandlebodyRuntime, model: Model, data: Data): void {
+    const same = data === this.#solved && model.settings === this.model.settings;
+    this.model = model;
+    if (!same) this.solve(hb, data);
   }
 
   /** The last that could be made, if any. */
@@ -42,6 +50,7 @@ export class Fit {
   solve(hb: HandlebodyRuntime, data: Data): void {
     const { kind, settings } = this.model;
     this.label = labelOf(this.model, data.dimension);
+    this.#solved = data;
     let made: Interpolant | undefined;
     try {
       made = kindOf(kind)?.make(hb, data, settings);

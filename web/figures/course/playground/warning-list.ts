@@ -1,8 +1,8 @@
-import type { RbfWarning } from '../../../wasm/ts/runtime.ts';
-import { brief } from '../../figures/kit/words.ts';
-import { h } from '../../ui/dom.ts';
-import { explain } from '../../ui/explain.ts';
-import { focusNeighbor } from '../../ui/focus.ts';
+import type { RbfWarning } from '../../../../wasm/ts/runtime.ts';
+import { h, match, write } from '../../../ui/dom.ts';
+import { explain } from '../../../ui/explain.ts';
+import { focusNeighbor } from '../../../ui/focus.ts';
+import { brief } from '../../kit/words.ts';
 import type { Settings } from './experiment.ts';
 
 interface Remedy {
@@ -20,42 +20,39 @@ export function remediesOf({ suggestion }: Pick<RbfWarning, 'suggestion'>): Reme
   return remedies;
 }
 
+interface Told {
+  readonly message: string;
+  readonly remedy: string;
+  readonly remedies: readonly Remedy[];
+}
+
 /** An interpolant's error and warnings, each as a sentence, what to do about it, and buttons that do it. */
 export class WarningList {
   readonly element = h('div', { class: 'warnings' });
   readonly #known: ReadonlySet<string>;
   readonly #apply: (settings: Settings) => void;
   readonly #below: HTMLElement;
-  readonly #items = new Map<string, { element: HTMLElement; update(message: string, remedy: string, remedies: Remedy[]): void }>();
+  readonly #items = new Map<string, { readonly element: HTMLElement; show(told: Told): void }>();
 
   /** `known`: the settings that the interpolant has; remedies that need others get no button. `below` gets the focus after the last one. */
   constructor(known: ReadonlySet<string>, apply: (settings: Settings) => void, below: HTMLElement) {
-    this.#known = known;
-    this.#apply = apply;
-    this.#below = below;
+    [this.#known, this.#apply, this.#below] = [known, apply, below];
   }
 
   /** `kept`: whether there is a last good picture. */
   show(problem: unknown, kept: boolean, warnings: readonly RbfWarning[]): void {
-    const told = new Set<string>();
-    const tell = (code: string, message: string, remedy: string, remedies: Remedy[]) => {
-      told.add(code);
-      let item = this.#items.get(code);
-      if (!item) {
-        item = this.#item(code);
-        this.#items.set(code, item);
-        this.element.append(item.element);
-      }
-      item.update(message, remedy, remedies);
-    };
+    const told = new Map<string, Told>();
     if (problem !== undefined) {
       const { message, remedy } = explain(problem);
-      tell('error', message, kept ? `${remedy} The picture is the last good one.` : remedy, []);
-    } else {
+      told.set('error', { message, remedy: kept ? `${remedy} The picture is the last good one.` : remedy, remedies: [] });
+    } else
       for (const warning of warnings) {
         const remedies = remediesOf(warning).filter(({ settings }) => Object.keys(settings).every((id) => this.#known.has(id)));
-        tell(warning.code, warning.message, warning.remedy, remedies);
+        told.set(warning.code, { ...warning, remedies });
       }
+    for (const [code, words] of told) {
+      const item = this.#items.get(code) ?? this.#item(code);
+      item.show(words);
     }
     for (const [code, { element }] of this.#items) {
       if (told.has(code)) continue;
@@ -68,29 +65,24 @@ export class WarningList {
 
   /** One sentence; its elements stay while numbers in it change, so that a button can be pressed in the midst of a drag. */
   #item(code: string) {
-    const sentence = h('p', { class: 'sentence' });
-    const advice = h('p', { class: 'remedy' });
-    const row = h('div', { class: 'buttons' });
-    const element = h('div', { class: 'warning' }, sentence, advice, row);
-    element.dataset.code = code;
-    let current: Remedy[] = [];
-    const update = (message: string, remedy: string, remedies: Remedy[]) => {
-      if (sentence.textContent !== message) sentence.textContent = message;
-      if (advice.textContent !== remedy) advice.textContent = remedy;
+    const [sentence, advice, row] = [h('p', { class: 'sentence' }), h('p', { class: 'remedy' }), h('div', { class: 'tools' })];
+    const element = h('div', { class: 'warning', 'data-code': code }, sentence, advice, row);
+    let current: readonly Remedy[] = [];
+    const button = (i: number) =>
+      h('button', { type: 'button', class: 'button small', onclick: () => current[i] && this.#apply(current[i].settings) });
+    const show = ({ message, remedy, remedies }: Told) => {
       current = remedies;
+      write(sentence, message);
+      write(advice, remedy);
       row.hidden = remedies.length === 0;
-      while (row.childElementCount > remedies.length) row.lastElementChild?.remove();
-      while (row.childElementCount < remedies.length) {
-        const i = row.childElementCount;
-        row.append(
-          h('button', { type: 'button', class: 'button small', onclick: () => current[i] && this.#apply(current[i].settings) }),
-        );
-      }
+      match(row, remedies.length, button);
       remedies.forEach(({ words }, i) => {
-        const button = row.children[i] as HTMLElement;
-        if (button.textContent !== words) button.textContent = words;
+        write(row.children[i] as Element, words);
       });
     };
-    return { element, update };
+    const item = { element, show };
+    this.#items.set(code, item);
+    this.element.append(element);
+    return item;
   }
 }

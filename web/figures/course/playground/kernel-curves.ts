@@ -1,4 +1,4 @@
-import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
+import type { HandlebodyRuntime } from '../../../../wasm/ts/runtime.ts';
 import type { Fit } from './fit.ts';
 import type { Data } from './kind.ts';
 import { rbfOptions } from './rbf-kind.ts';
