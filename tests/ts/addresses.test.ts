@@ -29,7 +29,7 @@ const { parameters, presets, former = {} } = solidFigure;
 const solid = {
   fromAddress: (hash: string, left: string[] = []) => {
     const read = fromText(parameters, presets, hash, former);
-    left.push(...read.left.map(quoted));
+    left.push(...read.left);
     return read;
   },
   toAddress: ({ preset, state }: ReturnType<typeof fromText<typeof parameters>>): string => toText(parameters, preset, state),

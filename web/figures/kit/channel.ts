@@ -1,8 +1,8 @@
 /** One thing that a figure's state holds: what it is at first, and how a line of text says it. */
 export interface Channel<T> {
   readonly initial: T;
-  /** What a text stands for; nothing where it stands for nothing. Never throws. */
-  read(text: string): T | undefined;
+  /** What a text stands for; nothing where it stands for nothing. What of it had to be left out goes to `left`. Never throws. */
+  read(text: string, left?: string[]): T | undefined;
   write(value: T): string;
 }
 

@@ -58,11 +58,11 @@ export function partControl<S>({ parameter, read }: PartControl<S>, first: S, ch
   let [kind, control] = ['', undefined as Control | undefined];
   const show = (state: S) => {
     const asked = parameter(state);
-    const next = JSON.stringify(asked);
+    const next = JSON.stringify(asked) ?? '';
     if (next !== kind) {
       const focused = element.contains(document.activeElement);
-      control = controlOf(asked, change);
-      element.replaceChildren(control.element);
+      control = asked && controlOf(asked, change);
+      element.replaceChildren(...(control ? [control.element] : []));
       if (focused) element.querySelector<HTMLElement>('input, select')?.focus();
     }
     kind = next;

@@ -14,19 +14,26 @@ export interface Work<M = unknown> {
   alone(): void;
 }
 
+/** Does what goes on between frames, as finer weights: the figure comes to rest, and moves once more, when it has ended. What fails is told. */
+export type Wait = (label: string, work: (progress: (part: number) => void) => Promise<unknown>) => void;
+
 /** What a panel can ask for. */
 export interface Kit<S> {
-  readonly hb: HandlebodyRuntime;
   readonly state: S;
   /** Sets channels: what depends on them is made and drawn with the next frame. */
   change(patch: Partial<S>): void;
   /** Draws with the next frame, though nothing changed: another size, theme or pixel ratio. */
   redraw(): void;
+  /** Says what went wrong. */
+  tell(error: unknown): void;
+  readonly wait: Wait;
 }
 
 /** A picture of a figure. */
 export interface Panel<M, S> {
   open(kit: Kit<S>): OpenPanel<M, S>;
+  /** In which states it is there: in all, where this is left out. */
+  shown?(state: S): boolean;
 }
 
 export interface OpenPanel<M, S> {
@@ -43,10 +50,11 @@ export type Told = readonly [name: string, value: number | string];
 
 /** A control for a part of a channel, or for what another channel chooses. */
 export interface PartControl<S> {
-  /** The same one as long as it is of the same kind: what it returns is compared. */
-  parameter(state: S): Parameter;
+  /** The same one as long as it is of the same kind: what it returns is compared. Nothing where there is nothing to set. */
+  parameter(state: S): Parameter | undefined;
   read(state: S): unknown;
-  write(state: S, value: never): Partial<S>;
+  /** The channels that it sets, or the preset that it begins. */
+  write(state: S, value: never): Partial<S> | string;
 }
 
 /** A figure: what can be set, what the solver makes of it, how that is drawn. */
@@ -54,6 +62,8 @@ export interface Figure<C extends Channels, M> {
   /** Permanent: its address, and the name by which others embed it. */
   readonly id: string;
   readonly title: string;
+  /** Instead of the preset's title, where that is not what is shown. */
+  titleOf?(state: StateOf<C>): string | undefined;
   /** What its state holds. Those with controls get them, in this order. */
   readonly parameters: C;
   /** Further controls, after these. */
@@ -66,15 +76,22 @@ export interface Figure<C extends Channels, M> {
   readonly moving?: readonly (keyof C)[];
   /** Channels that only the pictures depend on. */
   readonly shown?: readonly (keyof C)[];
+  /** Channels that stay as they are when a preset is begun that says nothing of them. */
+  readonly kept?: readonly (keyof C)[];
   /** The whole solver is fetched, where a figure bakes or computes weights. */
   readonly whole?: boolean;
-  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>): M | Promise<M>;
+  /** What is drawn before the solver has come. */
+  sketch?(state: StateOf<C>): M;
+  /** `before` is what was made last, or sketched: it may be returned again. */
+  make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>, before?: M): M | Promise<M>;
   /** Whether there is more to do with the next frame. */
   // biome-ignore lint/suspicious/noConfusingVoidType: most have nothing to say
-  move?(made: M, state: StateOf<C>): boolean | void;
+  move?(made: M, state: StateOf<C>, wait: Wait): boolean | void;
   /** What takes longer than a frame, and is made when nothing moves: before the last picture, and before `told`. */
   settle?(made: M, state: StateOf<C>): void;
   readonly panels: Readonly<Record<string, Panel<M, StateOf<C>>>>;
+  /** Beside the pictures, after the controls. */
+  readonly asides?: Readonly<Record<string, Panel<M, StateOf<C>>>>;
   /** For readers, tables and the figure's test: the solver's own numbers. */
   told?(made: M, state: StateOf<C>): readonly Told[];
 }

@@ -9,7 +9,7 @@ import { Progress } from '../../ui/progress.ts';
 import { Trouble } from '../../ui/trouble.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControl, partsOf } from './controls.ts';
-import type { Figure, Kit, OpenPanel, Told, Work } from './figure.ts';
+import type { Figure, Kit, OpenPanel, Told, Wait, Work } from './figure.ts';
 import { savePicture } from './save-picture.ts';
 import { fromText, type Preset, stateOfPreset, toText } from './state-text.ts';
 import { brief } from './words.ts';
@@ -56,12 +56,15 @@ export class Live<C extends Channels, M extends Disposable> {
   readonly #busy = h('div', { class: 'progress', hidden: true });
   readonly #progress = new Progress(this.#busy);
   readonly #pictures = h('div', { class: 'panels' });
+  readonly #asides = h('div', { class: 'asides' });
   readonly #caption = h('p', { class: 'caption' });
   readonly #facts = h('dl', { class: 'facts' });
   readonly #spoken = h('p', { class: 'unseen', role: 'status' });
   readonly #controls: PartShown<StateOf<C>>[];
   readonly #presets = new Map<string, HTMLButtonElement>();
   #panels: OpenPanel<M, StateOf<C>>[] = [];
+  /** Of the panels that are not always there. */
+  readonly #shown = new Map<OpenPanel<M, StateOf<C>>, (state: StateOf<C>) => boolean>();
   #hb: HandlebodyRuntime | undefined;
   #preset: Preset<C>;
   #state: StateOf<C>;
@@ -71,12 +74,17 @@ export class Live<C extends Channels, M extends Disposable> {
   #work: AbortController | undefined;
   #unmade = true;
   #unmoved = false;
+  /** Why the last movement was none: told once. */
+  #stuck = '';
+  /** What goes on between frames. */
+  #waits = 0;
   /** No worker could be started: said until it is dismissed. */
   #alone = false;
   #frame = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #told: readonly Told[] = [];
   #text = '';
+  #toldPreset: Preset<C> | undefined;
   #disposed = false;
 
   constructor(figure: Figure<C, M>, options: LiveOptions) {
@@ -85,7 +93,12 @@ export class Live<C extends Channels, M extends Disposable> {
     const read = fromText(figure.parameters, figure.presets, options.state ?? '', figure.former);
     [this.#preset, this.#state] = [read.preset, read.state];
     this.#controls = partsOf(figure).map((part) =>
-      partControl(part, this.#state, (value) => this.change(part.write(this.#visible, value as never))),
+      partControl(part, this.#state, (value) => {
+        const patch = part.write(this.#visible, value as never);
+        const preset = figure.presets.find(({ id }) => id === patch);
+        if (preset) this.#begin(preset);
+        else if (typeof patch !== 'string') this.change(patch);
+      }),
     );
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;
@@ -133,6 +146,7 @@ export class Live<C extends Channels, M extends Disposable> {
     else {
       if (keys.some((key) => !isLight(key) && patch[key] !== this.#state[key])) this.#unmade = true;
       this.#state = { ...this.#state, ...patch };
+      if (!this.#unmade && this.#good) this.#good = { preset: this.#preset, state: this.#state };
     }
     if (this.#unmade) this.element.dataset.state = this.#good ? 'ready' : 'loading';
     this.#stir();
@@ -193,7 +207,7 @@ export class Live<C extends Channels, M extends Disposable> {
       tool('SVG', save('svg')),
       tool('PNG', save('png')),
     );
-    const controls = h('div', { class: 'controls' }, ...this.#controls.map(({ element }) => element), this.#facts);
+    const controls = h('div', { class: 'controls' }, ...this.#controls.map(({ element }) => element), this.#asides, this.#facts);
     this.element.append(
       this.#title,
       this.#said,
@@ -219,35 +233,89 @@ export class Live<C extends Channels, M extends Disposable> {
   async #open(): Promise<void> {
     try {
       const { solvers } = this.#options;
+      if (this.#figure.sketch) await this.#sketch();
       this.#hb = await (this.#figure.whole ? solvers.whole() : solvers.runtime());
       if (this.#disposed) return;
-      const kit: Kit<StateOf<C>> = this.#kit(this.#hb);
-      this.#panels = Object.values(this.#figure.panels).map((panel) => panel.open(kit));
-      this.#pictures.append(...this.#panels.map(({ element }) => element));
-      this.#pictures.dataset.count = String(this.#panels.length);
+      this.#openPanels();
       this.#stir();
     } catch (error) {
       this.element.dataset.state = 'failed';
       this.element.dataset.rest = 'yes';
-      this.#trouble.tell(error);
+      const again = () => {
+        this.element.dataset.state = 'loading';
+        void this.#open();
+      };
+      this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
     }
   }
 
-  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>> {
+  /** Draws what needs no solver, as `data-drawn` says. */
+  async #sketch(): Promise<void> {
+    this.#openPanels();
+    await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+    if (this.#made || this.#disposed) return;
+    try {
+      this.#made = this.#figure.sketch?.(this.#state);
+    } catch {
+      // What cannot be made says why, then.
+    }
+    this.#draw();
+    this.element.toggleAttribute('data-drawn', true);
+  }
+
+  #openPanels(): void {
+    if (this.#panels.length > 0) return;
+    const kit = this.#kit();
+    const { panels, asides = {} } = this.#figure;
+    for (const [group, place] of [[panels, this.#pictures], [asides, this.#asides]] as const) {
+      for (const panel of Object.values(group)) {
+        const open = panel.open(kit);
+        this.#panels.push(open);
+        if (panel.shown) this.#shown.set(open, panel.shown);
+        place.append(open.element);
+      }
+    }
+    this.#pictures.dataset.count = String(Object.keys(panels).length);
+    this.#show();
+  }
+
+  #kit(): Kit<StateOf<C>> {
     const state = () => this.#visible;
     return {
-      hb,
       get state() {
         return state();
       },
       change: (patch) => this.change(patch),
       redraw: () => this.#stir(),
+      tell: (error) => this.#trouble.tell(error),
+      wait: (label, work) => void this.#wait(label, work),
     };
   }
 
+  #wait: Wait = async (label, work) => {
+    const begun = performance.now();
+    this.#waits++;
+    try {
+      await work((part) => {
+        if (this.#work || performance.now() - begun < PATIENCE) return;
+        if (this.#busy.hidden) this.#progress.begin(label);
+        this.#progress.set(part);
+      });
+    } catch (error) {
+      this.#trouble.tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
+    } finally {
+      this.#waits--;
+      if (!this.#work) this.#progress.end();
+      this.#unmoved = true;
+      if (!this.#disposed) this.#stir();
+    }
+  };
+
   #begin(preset: Preset<C>): void {
+    const [seen, base] = [this.#visible, stateOfPreset(this.#figure.parameters, preset)];
+    const kept = (this.#figure.kept ?? []).filter((key) => !(key in preset.state)).map((key) => [key, seen[key]]);
     this.#preset = preset;
-    this.change(stateOfPreset(this.#figure.parameters, preset));
+    this.change({ ...base, ...Object.fromEntries(kept) });
   }
 
   #stir(): void {
@@ -266,9 +334,14 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #move(made: M): void {
     this.#unmoved = false;
-    this.#attempt(() => {
-      if (this.#figure.move?.(made, this.#visible)) this.#unmoved = true;
-    });
+    try {
+      if (this.#figure.move?.(made, this.#visible, this.#wait)) this.#unmoved = true;
+      if (this.#stuck) this.#trouble.clear();
+      this.#stuck = '';
+    } catch (error) {
+      if (this.#stuck !== String(error)) this.#trouble.tell(error);
+      this.#stuck = String(error);
+    }
     if (this.#unmoved) this.#frame ||= requestAnimationFrame(() => void this.#run());
   }
 
@@ -282,13 +355,13 @@ export class Live<C extends Channels, M extends Disposable> {
       this.#progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
     }, PATIENCE);
     try {
-      const making = this.#figure.make(this.#hb as HandlebodyRuntime, state, this.#worker(work.signal));
+      const making = this.#figure.make(this.#hb as HandlebodyRuntime, state, this.#worker(work.signal), this.#made);
       if (making instanceof Promise) this.#work = work;
       const made = making instanceof Promise ? await making : making;
-      if (work.signal.aborted || this.#disposed) made.dispose?.();
+      if ((work.signal.aborted || this.#disposed) && made !== this.#made) made.dispose?.();
       if (this.#disposed) return;
       work.signal.throwIfAborted();
-      this.#made?.dispose?.();
+      if (this.#made !== made) this.#made?.dispose?.();
       this.#made = made;
       this.#unmoved = true;
       this.#good = { preset, state };
@@ -302,6 +375,10 @@ export class Live<C extends Channels, M extends Disposable> {
       clearTimeout(patience);
       if (this.#work === work) this.#end();
       this.#show();
+      // Of choices the one that is made has the focus.
+      const { activeElement } = document;
+      if (activeElement instanceof HTMLInputElement && activeElement.type === 'radio' && this.element.contains(activeElement))
+        this.element.querySelector<HTMLInputElement>(`input[name="${activeElement.name}"]:checked`)?.focus();
     }
   }
 
@@ -325,16 +402,18 @@ export class Live<C extends Channels, M extends Disposable> {
 
   /** A link may ask for what cannot be made: then the preset stands in, and says so. */
   #fallBack(error: unknown): void {
-    const preset = stateOfPreset(this.#figure.parameters, this.#preset);
-    if (toText(this.#figure.parameters, this.#preset, preset) === this.state) {
+    const { parameters, shown = [], kept = [] } = this.#figure;
+    const light = [...shown, ...kept].map((key) => [key, this.#state[key]]);
+    const instead = { ...stateOfPreset(parameters, this.#preset), ...Object.fromEntries(light) };
+    if (toText(parameters, this.#preset, instead) === this.state) {
       this.element.dataset.state = 'failed';
       return;
     }
-    this.#state = preset;
+    this.#state = instead;
     this.#unmade = true;
     this.#stir();
     const { message } = explain(error);
-    tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message}`);
+    tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message} Check that the link was copied whole.`);
   }
 
   #worker(signal: AbortSignal): Work<M> {
@@ -367,7 +446,7 @@ export class Live<C extends Channels, M extends Disposable> {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       // A slow machine has not drawn yet what is to be at rest.
-      if (this.#frame !== 0 || this.#work || !this.#hb) return this.#restSoon();
+      if (this.#frame !== 0 || this.#work || this.#waits > 0 || !this.#hb) return this.#restSoon();
       this.#rest();
     }, REST);
   }
@@ -389,7 +468,8 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#spoken.textContent = words.map(([name, value]) => `${name}: ${value}.`).join(' ');
     const { state } = this;
     if (state !== this.#text) {
-      const another = this.#text !== '' && state === `v1&${this.#preset.id}`;
+      const another = this.#text !== '' && (state === `v1&${this.#preset.id}` || this.#preset !== this.#toldPreset);
+      this.#toldPreset = this.#preset;
       this.#text = state;
       this.#options.onChange?.(state, another);
     }
@@ -403,7 +483,8 @@ export class Live<C extends Channels, M extends Disposable> {
     if (this.element.dataset.state === 'failed' && !this.#work)
       for (const radio of this.element.querySelectorAll<HTMLInputElement>('input[type=radio]')) radio.checked = false;
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
-    this.#title.textContent = title;
+    this.#title.textContent = this.#figure.titleOf?.(this.#visible) ?? title;
+    for (const [{ element }, isShown] of this.#shown) element.hidden = !isShown(this.#visible);
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
     for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);
   }
@@ -417,7 +498,7 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   #sayLeft({ left, newer }: { readonly left: readonly string[]; readonly newer: boolean }): void {
-    const parts = left.map((part) => `“${shortened(part)}”`).join(', ');
+    const parts = left.join(', ');
     if (newer) tell(this.#notice, 'This link was made by a newer version of the page: the figure begins as its preset has it.');
     else tell(this.#notice, left.length > 0 ? `Of the link this could not be read and was left out: ${parts}.` : '');
   }
@@ -426,10 +507,6 @@ export class Live<C extends Channels, M extends Disposable> {
 function tell(element: HTMLElement, text: string): void {
   element.textContent = text;
   element.hidden = text === '';
-}
-
-function shortened(text: string): string {
-  return text.length > 40 ? `${text.slice(0, 39)}…` : text;
 }
 
 function withoutWorker(): PageError {

@@ -1,3 +1,4 @@
+import { quoted } from '../../ui/address.ts';
 import type { Channels, StateOf } from './channel.ts';
 
 /*
@@ -27,7 +28,7 @@ type Former<C extends Channels> = Readonly<Record<string, keyof C | 'from'>>;
 interface ReadState<C extends Channels> {
   readonly preset: Preset<C>;
   readonly state: StateOf<C>;
-  /** What the text says that could not be read, as it stands there. */
+  /** What the text says that could not be read: quoted, or counted where it is much. */
   readonly left: readonly string[];
   /** Written by a version of this format that is newer than this one: only its preset was taken. */
   readonly newer: boolean;
@@ -68,14 +69,14 @@ export function fromText<C extends Channels>(
     const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
     const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
     if (named) preset = named;
-    else given.push([part, key, plain(value)]);
+    else given.push([part, key === 'from' && Object.hasOwn(channels, name) ? name : key, plain(value)]);
   }
   const state: Record<string, unknown> = { ...stateOfPreset(channels, preset) };
   const newer = version > VERSION;
   if (!newer) {
     for (const [part, key, value] of given) {
-      const read = Object.hasOwn(channels, key) ? channels[key]?.read(value) : undefined;
-      if (read === undefined) left.push(plain(part));
+      const read = Object.hasOwn(channels, key) ? channels[key]?.read(value, left) : undefined;
+      if (read === undefined) left.push(quoted(plain(part)));
       else state[key] = read;
     }
   }
