@@ -84,7 +84,8 @@ export class Live<C extends Channels, M extends Disposable> {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #told: readonly Told[] = [];
   #text = '';
-  #toldPreset: Preset<C> | undefined;
+  /** The preset and the title at that. */
+  #toldAs = '';
   #disposed = false;
 
   constructor(figure: Figure<C, M>, options: LiveOptions) {
@@ -267,7 +268,10 @@ export class Live<C extends Channels, M extends Disposable> {
     if (this.#panels.length > 0) return;
     const kit = this.#kit();
     const { panels, asides = {} } = this.#figure;
-    for (const [group, place] of [[panels, this.#pictures], [asides, this.#asides]] as const) {
+    for (const [group, place] of [
+      [panels, this.#pictures],
+      [asides, this.#asides],
+    ] as const) {
       for (const panel of Object.values(group)) {
         const open = panel.open(kit);
         this.#panels.push(open);
@@ -413,7 +417,10 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#unmade = true;
     this.#stir();
     const { message } = explain(error);
-    tell(this.#notice, `What the link asks for cannot be made, so the preset is shown. ${message} Check that the link was copied whole.`);
+    tell(
+      this.#notice,
+      `What the link asks for cannot be made, so the preset is shown. ${message} Check that the link was copied whole.`,
+    );
   }
 
   #worker(signal: AbortSignal): Work<M> {
@@ -468,8 +475,9 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#spoken.textContent = words.map(([name, value]) => `${name}: ${value}.`).join(' ');
     const { state } = this;
     if (state !== this.#text) {
-      const another = this.#text !== '' && (state === `v1&${this.#preset.id}` || this.#preset !== this.#toldPreset);
-      this.#toldPreset = this.#preset;
+      const shown = `${this.#preset.id} ${this.#title.textContent}`;
+      const another = this.#text !== '' && (state === `v1&${this.#preset.id}` || shown !== this.#toldAs);
+      this.#toldAs = shown;
       this.#text = state;
       this.#options.onChange?.(state, another);
     }

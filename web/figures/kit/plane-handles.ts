@@ -23,6 +23,9 @@ export type Handles = readonly Handle[] | 'auto';
 
 export const MOST_HANDLES = 24;
 
+/** Handles in poses that are struck in motion, where motion is wanted; others are where they are at once. */
+export const struck = new WeakSet<readonly Handle[]>();
+
 /** Where the first end of a handle is now. */
 export function placeOf({ rest, move }: Handle): Place {
   return [rest[0] + move[0], rest[1] + move[1]];

@@ -5,8 +5,8 @@ import { PageError } from '../../ui/page-error.ts';
 import { onInterruption, onPaper, onScreenChange } from '../../ui/screen.ts';
 import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
-import { emptiest, boneIn, restOf } from './placing.ts';
-import { type Handle, MOST_HANDLES, movedTo, point, resting, toThousandths } from './plane-handles.ts';
+import { boneIn, emptiest, restOf } from './placing.ts';
+import { type Handle, MOST_HANDLES, movedTo, point, resting, struck, toThousandths } from './plane-handles.ts';
 import { type Held, ShapeHandles } from './shape-handles.ts';
 import { type PaintedShape, ShapePicture } from './shape-picture.ts';
 
@@ -33,9 +33,6 @@ interface ShapePlotOptions<M, S> {
 export function shapePlot<M, S>(options: ShapePlotOptions<M, S>): Panel<M, S> {
   return { open: (kit) => new ShapePlot(kit, options) };
 }
-
-/** Handles that are struck in motion, where motion is wanted: the others are where they are. */
-export const struck = new WeakSet<readonly Handle[]>();
 
 class ShapePlot<M, S> implements OpenPanel<M, S> {
   readonly element: HTMLElement;
@@ -108,9 +105,10 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
     if (!this.#drawn) return;
     const { handles } = this.#handles.held;
     const handle = handles.length < MOST_HANDLES ? make({ ...this.#drawn, handles }) : undefined;
-    if (!handle) return this.#kit.tell(noRoom(handles.length));
-    this.#handles.set([...handles, handle], handles.length);
-    this.#handles.focus(handles.length);
+    if (handle) {
+      this.#handles.set([...handles, handle], handles.length);
+      this.#handles.focus(handles.length);
+    } else this.#kit.tell(noRoom(handles.length));
   }
 
   /** A handle where the shape is now drawn at a place; none where there is nothing. */

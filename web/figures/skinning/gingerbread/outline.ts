@@ -16,7 +16,9 @@ export const outline: Channel<Shape | undefined> = {
   write: (shape) => (shape ?? []).map((ring) => Array.from(ring, (value) => Math.round(value * 1000)).join(',')).join(';'),
   read: (text) => {
     const rings = text.split(';').map(numbersOf);
-    const sound = rings.every((ring) => ring !== undefined && ring.length % 2 === 0 && ring.every((value) => Math.abs(value) < FAR));
+    const sound = rings.every(
+      (ring) => ring !== undefined && ring.length % 2 === 0 && ring.every((value) => Math.abs(value) < FAR),
+    );
     const count = rings.reduce((sum, ring) => sum + (ring?.length ?? 0) / 2, 0);
     if (!sound || count > MOST_READ_POINTS) return undefined;
     const shape = rings.map((ring) => Float64Array.from(ring ?? [], (value) => value / 1000));

@@ -1,35 +1,49 @@
-import { simplify, withoutRepeats } from '../../models/resample.ts';
-import { centered, checkShape, type Shape } from '../../models/shape.ts';
-import { h, svg } from '../../ui/dom.ts';
+import { simplify, withoutRepeats } from '../../../models/resample.ts';
+import { centered, checkShape, type Shape } from '../../../models/shape.ts';
+import { h, svg } from '../../../ui/dom.ts';
+import { lazy } from '../../../ui/lazy.ts';
+import type { Kit, OpenPanel, Panel } from '../../kit/figure.ts';
+import type { PaintedShape } from '../../kit/shape-picture.ts';
+import { type Bent, parameters, type State } from './bent.ts';
+import { portable } from './outline.ts';
 
-interface OwnActions {
-  /** A sound outline, two units large: the sheet stays open until it is hidden. */
-  take(outline: Shape): void;
-  open(): void;
-  /** Nobody wants it any more. */
-  cancel(): void;
-  trouble(error: unknown): void;
-}
+/** Only who opens a picture needs what traces it. */
+const picturePart = lazy(() => import('./open-picture.ts'), 'The part of this page that opens pictures');
 
-/** An outline of one's own over the picture: drawn in one stroke, typed, or taken from a picture. */
-export class OwnShape {
+/** An outline of one's own over the picture: drawn in one stroke, typed, or taken from a picture, which may be dropped anywhere. */
+export const ownShape: Panel<Bent, State> = { open: (kit) => new OwnShape(kit), shown: ({ draw }) => draw };
+
+class OwnShape implements OpenPanel<Bent, State> {
   readonly element: HTMLElement;
-  readonly #actions: OwnActions;
+  readonly #kit: Kit<State>;
   readonly #path = svg('path');
   readonly #typed = h('textarea', {
     rows: 4,
     'aria-label': 'Outline as numbers, x y of each point',
     placeholder: '0 1\n0.9 -0.6\n-0.9 -0.6',
   });
+  readonly #file = h('input', {
+    type: 'file',
+    class: 'unseen',
+    id: 'file',
+    tabindex: -1,
+    'aria-label': 'Picture',
+    accept: 'image/png,image/svg+xml,image/webp,.png,.svg',
+  });
+  /** While a file is over the page. */
+  readonly #veil = h('div', { class: 'veil' }, h('p', {}, 'Drop a PNG or SVG with transparency'));
+  readonly #left = new AbortController();
   #points: number[] = [];
   #pointer = -1;
+  /** The file that was opened last. */
+  #opened: File | undefined;
 
-  constructor(actions: OwnActions) {
-    this.#actions = actions;
+  constructor(kit: Kit<State>) {
+    this.#kit = kit;
     const sheet = h('div', { class: 'sheet' }, svg('svg', { 'aria-hidden': 'true' }, this.#path));
     this.element = h(
       'div',
-      { class: 'own', hidden: true },
+      { class: 'own' },
       sheet,
       h(
         'div',
@@ -38,14 +52,18 @@ export class OwnShape {
         h(
           'div',
           { class: 'own-buttons' },
-          h('button', { type: 'button', class: 'button small', id: 'open', onclick: () => actions.open() }, 'Open a PNG or SVG'),
-          h('button', { type: 'button', class: 'button small', onclick: () => this.cancel() }, 'Cancel'),
+          h(
+            'button',
+            { type: 'button', class: 'button small', id: 'open', onclick: () => this.#file.click() },
+            'Open a PNG or SVG',
+          ),
+          h('button', { type: 'button', class: 'button small', onclick: () => this.#cancel() }, 'Cancel'),
         ),
         h(
           'details',
           {},
           h('summary', {}, 'Type it instead'),
-          h('p', { class: 'soft small' }, 'x and y of a point on each line; an empty line begins a hole.'),
+          h('p', { class: 'soft' }, 'x and y of a point on each line; an empty line begins a hole.'),
           this.#typed,
           h(
             'button',
@@ -54,28 +72,86 @@ export class OwnShape {
           ),
         ),
       ),
+      this.#file,
     );
     sheet.addEventListener('pointerdown', (event) => this.#begin(event, sheet));
     sheet.addEventListener('pointermove', (event) => this.#follow(event, sheet));
     sheet.addEventListener('pointerup', (event) => this.#end(event));
     sheet.addEventListener('pointercancel', () => this.#clear());
-    this.element.addEventListener('keydown', (event) => {
-      if (event.key === 'Escape') this.cancel();
+    this.#listen(this.#left.signal);
+  }
+
+  draw(): void {}
+
+  dispose(): void {
+    this.#left.abort();
+    this.#veil.remove();
+  }
+
+  #listen(signal: AbortSignal): void {
+    this.#file.addEventListener('change', () => {
+      const file = this.#file.files?.[0];
+      // The same file may be chosen again.
+      this.#file.value = '';
+      this.#open(file);
+    });
+    const isHere = ({ target }: Event) => this.element.closest('.figure')?.contains(target as Node) === true;
+    addEventListener('keydown', (event) => event.key === 'Escape' && isHere(event) && this.#cancel(), { signal });
+    addEventListener(
+      'dragover',
+      (event) => {
+        if (!event.dataTransfer?.types.includes('Files')) return;
+        event.preventDefault();
+        this.element.after(this.#veil);
+      },
+      { signal },
+    );
+    addEventListener('dragleave', (event) => event.relatedTarget || this.#veil.remove(), { signal });
+    addEventListener(
+      'drop',
+      (event) => {
+        if (!event.dataTransfer?.types.includes('Files')) return;
+        event.preventDefault();
+        this.#veil.remove();
+        this.#open(event.dataTransfer.files[0]);
+      },
+      { signal },
+    );
+  }
+
+  #open(file: File | undefined): void {
+    this.#opened = file;
+    if (!file) return;
+    this.#kit.wait('Tracing the picture…', async () => {
+      const { openPicture } = await picturePart();
+      const { outline, painting } = await openPicture(file);
+      // Unless another one was opened meanwhile.
+      if (this.#opened === file) this.#show(outline, painting);
     });
   }
 
-  show(): void {
+  /** Two units large, with handles of its own. */
+  #show(outline: Shape, painted?: PaintedShape): void {
+    const { h: handles, v, pick, show } = parameters;
     this.#clear();
-    // The focus stays with the choice: arrow keys go on from there.
-    this.element.hidden = false;
+    this.#kit.change({
+      o: portable(outline),
+      painted,
+      h: handles.initial,
+      v: v.initial,
+      pick: pick.initial,
+      show: show.initial,
+      draw: false,
+    });
   }
 
-  hide(): void {
-    this.element.hidden = true;
-  }
-
-  cancel(): void {
-    if (!this.element.hidden) this.#actions.cancel();
+  /** The choice of a shape says again what is shown. */
+  #cancel(): void {
+    if (!this.#kit.state.draw) return;
+    const isFocused = this.element.contains(document.activeElement);
+    this.#clear();
+    this.#kit.change({ draw: false });
+    if (isFocused) this.element.closest('.figure')?.querySelector<HTMLElement>('.choices input:checked')?.focus();
   }
 
   #begin(event: PointerEvent, sheet: HTMLElement): void {
@@ -128,9 +204,9 @@ export class OwnShape {
     try {
       const shape = rings.map(withoutRepeats);
       checkShape(shape);
-      this.#actions.take(centered(shape, 2).shape);
+      this.#show(centered(shape, 2).shape);
     } catch (error) {
-      this.#actions.trouble(error);
+      this.#kit.tell(error);
     }
   }
 

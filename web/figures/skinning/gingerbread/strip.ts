@@ -1,103 +1,90 @@
-import { h } from '../../ui/dom.ts';
-import type { Lesson } from './lesson.ts';
-import { METHODS, type Method, type MethodId } from './methods.ts';
+import { h } from '../../../ui/dom.ts';
+import type { Kit, OpenPanel, Panel } from '../../kit/figure.ts';
+import { ShapePicture } from '../../kit/shape-picture.ts';
+import type { Bent, State } from './bent.ts';
+import { METHODS, type Method } from './methods.ts';
 
-interface Entry {
+/** Milliseconds of a frame that small pictures may take. */
+const BUDGET = 10;
+
+interface Tile {
   readonly method: Method;
   readonly button: HTMLButtonElement;
-  readonly context: CanvasRenderingContext2D;
+  readonly canvas: HTMLCanvasElement;
   readonly note: HTMLElement;
 }
 
 /** Small pictures of every method in the same pose; a click chooses the method. Drawn while nothing else happens. */
-export class Strip {
+export const strip: Panel<Bent, State> = { open: (kit) => new Strip(kit) };
+
+class Strip implements OpenPanel<Bent, State> {
   readonly element: HTMLElement;
-  readonly #lesson: Lesson;
-  readonly #tiles: Entry[];
-  #queue: Entry[] = [];
+  readonly #picture = new ShapePicture();
+  readonly #tiles: readonly Tile[];
+  #queue: Tile[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(lesson: Lesson, choose: (id: MethodId) => void) {
-    this.#lesson = lesson;
+  constructor(kit: Kit<State>) {
     this.#tiles = METHODS.map((method) => {
       const canvas = h('canvas', { width: 1, height: 1, 'aria-hidden': 'true' });
       const note = h('span', { class: 'tile-note', hidden: true }, 'not prepared');
-      const button = h(
-        'button',
-        { type: 'button', class: 'tile', onclick: () => choose(method.id) },
-        canvas,
-        note,
-        h('span', { class: 'tile-name' }, method.title),
-      );
+      const name = h('span', { class: 'tile-name' }, method.title);
+      const choose = () => kit.change({ m: method.id });
+      const button = h('button', { type: 'button', class: 'tile', onclick: choose }, canvas, note, name);
       button.dataset.method = method.id;
-      return { method, button, note, context: canvas.getContext('2d') as CanvasRenderingContext2D };
+      return { method, button, note, canvas };
     });
-    this.element = h(
-      'section',
-      { class: 'strip', 'aria-label': 'Every method in the same pose' },
-      ...this.#tiles.map(({ button }) => button),
-    );
+    const buttons = this.#tiles.map(({ button }) => button);
+    this.element = h('section', { class: 'strip', 'aria-label': 'Every method in the same pose' }, ...buttons);
   }
 
-  /** Marks what is chosen. */
-  update(): void {
-    for (const { method, button } of this.#tiles) {
-      if (method.id === this.#lesson.method.id) button.setAttribute('aria-current', 'true');
-      else button.removeAttribute('aria-current');
-    }
+  /** Marks what is chosen. The rest has to wait while somebody does something. */
+  draw(_: Bent, { m }: State): void {
+    clearTimeout(this.#timer);
+    for (const { method, button } of this.#tiles) button.ariaCurrent = method.id === m ? 'true' : null;
   }
 
-  /** Everything is to be drawn again, soon; what is chosen first, what takes long last. */
-  refresh(): void {
-    const { deformer } = this.#lesson;
-    const rank = ({ method }: Entry) => (deformer?.isReady(method) ? 0 : method.kind === 'bounded' ? 2 : 1);
+  /** Everything is drawn again; what is there first, what takes long last. */
+  refine(bent: Bent, state: State): void {
+    const rank = ({ method }: Tile) => (bent.deformer?.isReady(method) ? 0 : method.kind === 'bounded' ? 2 : 1);
     this.element.toggleAttribute('data-done', false);
     this.#queue = [...this.#tiles].sort((a, b) => rank(a) - rank(b));
-    this.#schedule();
+    this.#soon(bent, state);
   }
 
-  /** Somebody does something: the rest has to wait. */
-  pause(): void {
+  dispose(): void {
     clearTimeout(this.#timer);
-    this.#timer = undefined;
+    this.#picture.dispose();
   }
 
-  /** Whether all pictures show the pose as it is. */
-  get isDone(): boolean {
-    return this.#queue.length === 0;
+  #soon(bent: Bent, state: State): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      const until = performance.now() + BUDGET;
+      let tile = this.#queue.shift();
+      for (; tile; tile = performance.now() < until ? this.#queue.shift() : undefined) this.#drawTile(tile, bent, state);
+      this.element.toggleAttribute('data-done', this.#queue.length === 0);
+      if (this.#queue.length > 0) this.#soon(bent, state);
+    }, 30);
   }
 
-  #schedule(): void {
-    this.#timer ??= setTimeout(() => requestAnimationFrame(() => this.#next()), 30);
-  }
-
-  #next(): void {
-    this.#timer = undefined;
-    this.#lesson.drawTiles(() => {
-      for (let tile = this.#queue.shift(); tile; tile = this.#queue.shift()) {
-        const { method, context, note } = tile;
-        const prepared = this.#lesson.deformer?.isOffered(method) === true;
-        note.hidden = prepared || method.family !== 'irbf';
-        if (sized(context.canvas) && prepared) return { method, context, done: (drawn) => show(tile, drawn) };
-        show(tile, false);
+  #drawTile({ method, button, note, canvas }: Tile, bent: Bent, state: State): void {
+    const isPrepared = bent.deformer?.isOffered(method) === true;
+    note.hidden = isPrepared || method.family !== 'irbf';
+    let isDrawn = false;
+    try {
+      if (isPrepared) {
+        const positions = bent.positions.slice();
+        bent.deformer?.deform(method, bent.handles(state), positions);
+        this.#picture.show(bent.mesh, bent.painted, positions);
+        this.#picture.setWeight(undefined, 0, 0);
+        this.#picture.showLines(false);
+        isDrawn = this.#picture.paint(canvas);
       }
-      return undefined;
-    });
-    this.element.toggleAttribute('data-done', this.isDone);
-    if (!this.isDone) this.#schedule();
+    } catch {
+      // The method itself says why when it is chosen.
+    }
+    if (!isDrawn) canvas.getContext('2d')?.clearRect(0, 0, canvas.width, canvas.height);
+    button.toggleAttribute('data-drawn', isDrawn);
   }
-}
-
-function show({ context, button }: Entry, drawn: boolean): void {
-  if (!drawn) context.clearRect(0, 0, context.canvas.width, context.canvas.height);
-  button.toggleAttribute('data-drawn', drawn);
-}
-
-/** Gives a canvas the pixels that it is laid out with; says whether there are any. */
-function sized(canvas: HTMLCanvasElement): boolean {
-  const ratio = Math.min(devicePixelRatio, 2);
-  const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
-  return width > 0 && height > 0;
 }

@@ -1,0 +1,3 @@
+import { figurePage } from '../figures/figure-page.ts';
+
+figurePage('gingerbread');
