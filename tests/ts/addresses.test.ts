@@ -1,18 +1,20 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { load } from '../../wasm/ts/index.ts';
+import type { Channels } from '../../web/figures/kit/channel.ts';
+import type { Figure } from '../../web/figures/kit/figure.ts';
 import { axisMarks } from '../../web/figures/kit/scale.ts';
 import { roundRange } from '../../web/figures/kit/section.ts';
 import { fromText, toText } from '../../web/figures/kit/state-text.ts';
+import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import gingerbreadFigure from '../../web/figures/skinning/gingerbread.ts';
 import solidFigure from '../../web/figures/skinning/solid.ts';
-import * as gingerbread from '../../web/learn/gingerbread/address.ts';
-import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import * as playground from '../../web/learn/interpolation/address.ts';
 import { MOST_POINTS } from '../../web/learn/interpolation/experiment.ts';
 import { Fit } from '../../web/learn/interpolation/fit.ts';
 import { dataOf } from '../../web/learn/interpolation/interpolants.ts';
 import { PRESETS } from '../../web/learn/interpolation/presets.ts';
-import { leftOut, quoted } from '../../web/ui/address.ts';
+import { leftOut } from '../../web/ui/address.ts';
 import { readable } from '../../web/ui/dom.ts';
 import { explain } from '../../web/ui/explain.ts';
 
@@ -25,15 +27,18 @@ interface Page {
   readonly words: readonly string[];
 }
 
-const { parameters, presets, former = {} } = solidFigure;
-const solid = {
-  fromAddress: (hash: string, left: string[] = []) => {
-    const read = fromText(parameters, presets, hash, former);
-    left.push(...read.left);
-    return read;
-  },
-  toAddress: ({ preset, state }: ReturnType<typeof fromText<typeof parameters>>): string => toText(parameters, preset, state),
-};
+/** A figure's state, as a page reads and writes it. */
+function pageOf<C extends Channels, M extends object>({ parameters, presets, former = {} }: Figure<C, M>) {
+  return {
+    fromAddress: (hash: string, left: string[] = []) => {
+      const read = fromText(parameters, presets, hash, former);
+      left.push(...read.left);
+      return read;
+    },
+    toAddress: ({ preset, state }: ReturnType<typeof fromText<C>>): string => toText(parameters, preset, state),
+  };
+}
+const [solid, gingerbread] = [pageOf(solidFigure), pageOf(gingerbreadFigure)];
 
 const PAGES: Record<string, Page> = {
   playground: {
@@ -186,8 +191,9 @@ describe('what an address says too much', () => {
   it('of ten thousand points of an outline makes a simpler one', () => {
     const circle = Array.from({ length: 10_000 }, (_, i) => (2 * Math.PI * i) / 10_000);
     const o = circle.map((angle) => `${Math.round(1e3 * Math.cos(angle))},${Math.round(1e3 * Math.sin(angle))}`).join(',');
-    const { shape, outline } = gingerbread.fromAddress(`#shape=own&o=${o}`);
-    expect(shape).toBe('own');
+    const { state, left } = gingerbread.fromAddress(`#shape=own&o=${o}`);
+    expect(left).toEqual([]);
+    const outline = state.o;
     expect(outline?.[0]?.length).toBeGreaterThan(40);
     expect(outline?.[0]?.length).toBeLessThanOrEqual(800);
   });

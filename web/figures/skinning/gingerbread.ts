@@ -147,8 +147,8 @@ export default define<typeof parameters, Bent>({
     const held = bent.handles(state)[state.pick];
     return [
       ['method', method.title],
-      ['vertices', positions.length / 2],
-      ['triangles', corners.length / 3],
+      ['vertices', (positions.length / 2).toLocaleString('en')],
+      ['triangles', (corners.length / 3).toLocaleString('en')],
       ['smallest angle', `${smallestAngle.toFixed(1)}°`],
       ['triangles turned over', countFlips(bent.positions, corners)],
       ...(bent.handles(state).length > 0 ? islands(bent, method) : []),
