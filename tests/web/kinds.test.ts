@@ -101,7 +101,7 @@ async function kindsOf(page: Page, { address, ready }: Kinds): Promise<Kinds> {
   const has = async (selector: string) => (await page.locator(selector).count()) > 0;
   const [space, map, handles] = [await has('.panels .stage'), await has('.panels .field'), await has('.panels .handle')];
   const shape = await has('.panels .picture');
-  const handle = `.panels > :first-child ${handles ? '.handle' : '.point:not([aria-hidden])'}`;
+  const handle = `.panels > :first-child ${handles ? '.handle' : '.point:not([aria-hidden], [hidden])'}`;
   return {
     address,
     ready,

@@ -19,7 +19,7 @@ export interface Handle {
 }
 
 /** 'auto' are those that a shape brings. */
-export type Handles = readonly Handle[] | 'auto';
+type Handles = readonly Handle[] | 'auto';
 
 export const MOST_HANDLES = 24;
 
