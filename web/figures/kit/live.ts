@@ -379,10 +379,6 @@ export class Live<C extends Channels, M extends Disposable> {
       clearTimeout(patience);
       if (this.#work === work) this.#end();
       this.#show();
-      // Of choices the one that is made has the focus.
-      const { activeElement } = document;
-      if (activeElement instanceof HTMLInputElement && activeElement.type === 'radio' && this.element.contains(activeElement))
-        this.element.querySelector<HTMLInputElement>(`input[name="${activeElement.name}"]:checked`)?.focus();
     }
   }
 
