@@ -9,9 +9,9 @@ import { dataOf, MOST_POINTS } from '../../web/figures/kit/point-set.ts';
 import { axisMarks } from '../../web/figures/kit/scale.ts';
 import { roundRange } from '../../web/figures/kit/section.ts';
 import { fromText, toText } from '../../web/figures/kit/state-text.ts';
+import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import gingerbreadFigure from '../../web/figures/skinning/gingerbread.ts';
 import solidFigure from '../../web/figures/skinning/solid.ts';
-import * as gingerbread from '../../web/learn/gingerbread/address.ts';
-import { METHODS } from '../../web/learn/gingerbread/methods.ts';
 import { leftOut } from '../../web/ui/address.ts';
 import { readable } from '../../web/ui/dom.ts';
 import { explain } from '../../web/ui/explain.ts';
@@ -34,8 +34,7 @@ const linesOf = <C extends Channels, M extends object>({ parameters, presets, fo
   },
   toAddress: ({ preset, state }: ReturnType<typeof fromText<C>>): string => toText(parameters, preset, state),
 });
-const playground = linesOf(playgroundFigure);
-const solid = linesOf(solidFigure);
+const [playground, gingerbread, solid] = [linesOf(playgroundFigure), linesOf(gingerbreadFigure), linesOf(solidFigure)];
 
 const PAGES: Record<string, Page> = {
   playground: {
@@ -189,8 +188,9 @@ describe('what an address says too much', () => {
   it('of ten thousand points of an outline makes a simpler one', () => {
     const circle = Array.from({ length: 10_000 }, (_, i) => (2 * Math.PI * i) / 10_000);
     const o = circle.map((angle) => `${Math.round(1e3 * Math.cos(angle))},${Math.round(1e3 * Math.sin(angle))}`).join(',');
-    const { shape, outline } = gingerbread.fromAddress(`#shape=own&o=${o}`);
-    expect(shape).toBe('own');
+    const { state, left } = gingerbread.fromAddress(`#shape=own&o=${o}`);
+    expect(left).toEqual([]);
+    const outline = state.o;
     expect(outline?.[0]?.length).toBeGreaterThan(40);
     expect(outline?.[0]?.length).toBeLessThanOrEqual(800);
   });

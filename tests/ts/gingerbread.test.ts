@@ -1,18 +1,11 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { fromAddress, initial, toAddress } from '../../web/learn/gingerbread/address.ts';
-import {
-  bone,
-  type Experiment,
-  endOf,
-  type Handle,
-  placeOf,
-  point,
-  wrap,
-  writeTransforms,
-} from '../../web/learn/gingerbread/experiment.ts';
-import { METHODS } from '../../web/learn/gingerbread/methods.ts';
-import { SHAPES } from '../../web/learn/gingerbread/shapes.ts';
+import { bone, endOf, type Handle, placeOf, point, wrap, writeTransforms } from '../../web/figures/kit/plane-handles.ts';
+import { fromText, stateOfPreset, toText } from '../../web/figures/kit/state-text.ts';
+import type { State } from '../../web/figures/skinning/gingerbread/bent.ts';
+import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import { SHAPES } from '../../web/figures/skinning/gingerbread/shapes.ts';
+import figure from '../../web/figures/skinning/gingerbread.ts';
 import { inside } from '../../web/models/shape.ts';
 
 const seed = 20260407;
@@ -24,10 +17,16 @@ const handle: fc.Arbitrary<Handle> = fc.oneof(
   fc.tuple(place, place, place, degrees).map(([from, to, move, turn]) => bone(from, to, move, turn)),
 );
 
+const { parameters, presets } = figure;
+const preset = (id: string) => presets.find((each) => each.id === id) as (typeof presets)[0];
+const initial = (id = 'man'): State => stateOfPreset(parameters, preset(id));
+const read = (hash: string) => fromText(parameters, presets, hash, figure.former);
+
 describe('the address', () => {
   it.each(SHAPES.map(({ id }) => id))('of %s as it opens is its name', (id) => {
-    expect(toAddress(initial(id))).toBe(id);
-    expect(fromAddress(`#${id}`)).toEqual(initial(id));
+    expect(toText(parameters, preset(id), initial(id))).toBe(`v1&${id}`);
+    for (const hash of [`#${id}`, `#shape=${id}`, `#v1&${id}`])
+      expect(read(hash)).toEqual({ preset: preset(id), state: initial(id), left: [], newer: false });
   });
 
   it(`holds everything, and gives it back (seed ${seed})`, () => {
@@ -43,17 +42,12 @@ describe('the address', () => {
         fc.constantFrom(...METHODS.map(({ id }) => id)),
         fc.integer({ min: 200, max: 8000 }),
         fc.boolean(),
-        (shape, rings, handles, method, vertices, mesh) => {
+        (shape, rings, handles, m, v, mesh) => {
           const own = rings.map((ring) => Float64Array.from(ring.slice(0, ring.length - (ring.length % 2)), (n) => n / 1000));
-          const experiment: Experiment = {
-            ...initial(shape, shape === 'own' ? own : undefined),
-            handles,
-            method,
-            vertices,
-            show: { weight: false, mesh },
-          };
-          const back = fromAddress(`#${toAddress(experiment)}`);
-          expect(back).toEqual(experiment);
+          const base = shape === 'own' ? 'man' : shape;
+          const o = shape === 'own' ? own : undefined;
+          const state: State = { ...initial(base), o, h: handles, m, v, show: { weight: false, mesh } };
+          expect(read(`#${toText(parameters, preset(base), state)}`).state).toEqual(state);
         },
       ),
       { seed, numRuns: 300 },
@@ -70,10 +64,28 @@ describe('the address', () => {
     '#shape=own',
     '#shape=own&o=1,2,x',
   ])('%s still shows something', (hash) => {
-    const experiment = fromAddress(hash);
-    expect(experiment.shape).toBe('man');
-    expect(experiment.vertices).toBe(2250);
-    expect(experiment.picked).toBe(-1);
+    const { state } = read(hash);
+    expect([state.shape, state.o]).toEqual(['man', undefined]);
+    expect(state.v).toBe(2250);
+    expect(state.pick).toBe(-1);
+  });
+
+  it('of before there were versions opens what it opened', () => {
+    const old = '#shape=man&m=rigid-bounded&h=p:0,0.62,0.1,0,12~b:0,0,0.2,0&v=600&pick=2&show=weight,mesh';
+    expect(read(old)).toMatchObject({
+      left: [],
+      state: {
+        ...initial(),
+        m: 'rigid-bounded',
+        h: [point(0, 0.62, 0.1, 0, 12), bone([0, 0], [0.2, 0])],
+        v: 600,
+        pick: 1,
+        show: { weight: true, mesh: true },
+      },
+    });
+    const own = read('#shape=own&o=0,0,1000,0,0,1000');
+    expect(own).toMatchObject({ left: [], state: { h: 'auto', o: [Float64Array.of(0, 0, 1, 0, 0, 1)] } });
+    expect(read('#shape=own&o=0,0,1000,0,0,1000&h=').state.h).toEqual([]);
   });
 });
 

@@ -1,7 +1,20 @@
-import type { Browser, Page } from 'playwright-core';
+import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { METHODS } from '../../web/learn/gingerbread/methods.ts';
-import { bend, covered, finished, handleAt, picture, rested, spoken } from './support/gingerbread.ts';
+import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import {
+  bend,
+  choiceOf,
+  chosen,
+  covered,
+  fact,
+  finished,
+  handleAt,
+  picture,
+  rested,
+  spoken,
+  trouble,
+  words,
+} from './support/gingerbread.ts';
 import { cramped, focused, violations } from './support/manners.ts';
 import { difference, frames, launch, PHONE, soon, swipe } from './support/studio.ts';
 
@@ -10,8 +23,6 @@ beforeAll(async () => {
   browser = await launch();
 });
 afterAll(() => browser.close());
-
-const trouble = (page: Page) => page.locator('#trouble').textContent();
 
 describe.each([
   ['desktop, light', { colorScheme: 'light' as const }],
@@ -23,10 +34,10 @@ describe.each([
     const { page, said } = await bend(browser, '#shape=bar&show=weight,mesh&pick=1', look);
     await finished(page);
     expect(await violations(page)).toEqual([]);
-    for (const more of await page.locator('.panel summary').all()) await more.click();
+    for (const more of await page.locator('.asides summary').all()) await more.click();
     expect(await violations(page)).toEqual([]);
     expect(await cramped(page)).toEqual([]);
-    await page.locator('input[value=own]').check();
+    await choiceOf(page, 'own').check();
     await page.locator('.own summary').click();
     expect(await violations(page)).toEqual([]);
     expect(await cramped(page)).toEqual([]);
@@ -61,43 +72,46 @@ describe('shapes', () => {
     const address = other.url();
     // Whatever carries the wasm is the largest script besides three.js; hold back all that are asked for after the first frame.
     await page.route('**/*.js', async (route) => {
-      const state = await page.evaluate(() => document.getElementById('lesson')?.dataset.state).catch(() => undefined);
-      if (state === 'drawn') await held;
+      const isDrawn = await page
+        .evaluate(() => document.querySelector('.figure')?.hasAttribute('data-drawn'))
+        .catch(() => undefined);
+      if (isDrawn) await held;
       await route.continue();
     });
     await page.goto(address);
-    await page.waitForSelector('#lesson[data-state=drawn]');
+    await page.waitForSelector('.figure[data-drawn]');
     await frames(page, 3);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
-    expect(await page.evaluate(() => document.getElementById('lesson')?.dataset.state)).toBe('drawn');
+    expect(await page.locator('.figure').getAttribute('data-state')).toBe('loading');
     release();
-    await page.waitForSelector('#lesson[data-state=ready]');
+    await page.waitForSelector('.figure[data-state=ready]');
     await context.close();
   });
 
   it('the address says what is shown, and back goes back', async () => {
     const { page } = await bend(browser, '');
-    await page.locator('input[name=shape][value=ring]').check();
+    await choiceOf(page, 'ring').check();
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#ring');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&ring');
     await page.getByRole('radio', { name: /^Harmonic/ }).check();
     await rested(page);
-    expect(await page.evaluate(() => location.hash)).toBe('#shape=ring&m=linear-harmonic');
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=ring&m=linear-harmonic');
     await page.reload();
-    await page.waitForSelector('#lesson[data-state=ready]');
-    expect(await page.locator('#title').textContent()).toBe('Ring');
+    await page.waitForSelector('.figure[data-state=ready]');
+    expect(await page.locator('.figure-title').textContent()).toBe('Ring');
     expect(await page.getByRole('radio', { name: /^Harmonic/ }).isChecked()).toBe(true);
     await page.goBack();
-    await soon(() => page.locator('#title').textContent()).toBe('Gingerbread man');
+    await soon(() => page.locator('.figure-title').textContent()).toBe('Gingerbread man');
   });
 
   it('finer and coarser meshes', async () => {
     const { page } = await bend(browser, '#bar');
-    const facts = () => page.locator('section:has(#mesh-title) p').textContent();
-    expect(await facts()).toMatch(/^2,2\d\d vertices, 4,\d\d\d triangles, smallest angle [23]\d\.\d°\.$/);
-    await page.locator('#vertices').fill('500');
+    expect(await fact(page, 'vertices')).toMatch(/^2,2\d\d$/);
+    expect(await fact(page, 'triangles')).toMatch(/^4,\d\d\d$/);
+    expect(await fact(page, 'smallest angle')).toMatch(/^[23]\d\.\d°$/);
+    await page.getByLabel('Vertices, about').fill('500');
     await rested(page);
-    expect(await facts()).toMatch(/^(4[5-9]|5[0-4])\d vertices/);
+    expect(await fact(page, 'vertices')).toMatch(/^(4[5-9]|5[0-4])\d$/);
     expect(await page.evaluate(() => location.hash)).toContain('v=500');
     expect(await trouble(page)).toBe('');
   });
@@ -126,7 +140,7 @@ describe('handles', () => {
 
   it('turn by the knob', async () => {
     const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
-    await page.locator('.handle').nth(2).focus();
+    await page.locator('.point').nth(2).focus();
     await page.waitForSelector('.knob:visible');
     const middle = await handleAt(page, 1);
     const knob = await page.locator('.knob').boundingBox();
@@ -176,7 +190,7 @@ describe('handles', () => {
     expect(Math.hypot(now.x - before.x, now.y - before.y + 30)).toBeLessThan(3);
     expect((await spoken(page, 1))[2]).toBeCloseTo(90, -1);
     expect(await page.evaluate(() => scrollY)).toBe(0);
-    const area = await page.locator('#picture').boundingBox();
+    const area = await page.locator('.picture').boundingBox();
     if (!area) throw new Error('there is no picture');
     await swipe(page, area.x + 30, area.y + area.height - 30, 0, -150);
     await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(80);
@@ -185,7 +199,7 @@ describe('handles', () => {
   it('the wheel turns what is focused, and scrolls the page otherwise', async () => {
     const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', { viewport: { width: 600, height: 700 } });
     const at = await handleAt(page, 1);
-    await page.locator('.handle').nth(2).focus();
+    await page.locator('.point').nth(2).focus();
     await page.mouse.move(at.x, at.y);
     await page.mouse.wheel(0, -100);
     await page.mouse.wheel(0, -100);
@@ -200,7 +214,7 @@ describe('handles', () => {
 
   it('obey the keyboard: steps, fine and coarse ones, turns, Esc, Delete', async () => {
     const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
-    await page.locator('.handle').nth(2).focus();
+    await page.locator('.point').nth(2).focus();
     const [x0 = 0, y0 = 0] = await spoken(page, 1);
     const press = async (key: string) => {
       await page.keyboard.press(key);
@@ -219,36 +233,36 @@ describe('handles', () => {
     expect(await press('Escape')).toEqual([x0, y0, 0]);
     await page.keyboard.press('Delete');
     await frames(page, 2);
-    expect(await page.locator('.handle.start').count()).toBe(2);
-    expect(await page.evaluate(() => document.activeElement?.className)).toBe('handle start');
+    expect(await page.locator('.point.start').count()).toBe(2);
+    expect(await page.evaluate(() => document.activeElement?.className)).toBe('point start');
   });
 
   it('are added as points and bones, by a double click too, and removed down to none', async () => {
     const { page, said } = await bend(browser, '#shape=man&h=p:0,0.62~p:0,-0.1');
-    await page.locator('#add-point').click();
-    await page.locator('#add-bone').click();
+    await page.getByRole('button', { name: 'Add a point' }).click();
+    await page.getByRole('button', { name: 'Add a bone' }).click();
     await rested(page);
-    expect(await page.locator('.handle.start').count()).toBe(4);
+    expect(await page.locator('.point.start').count()).toBe(4);
     expect(await page.locator('.bone-line:visible').count()).toBe(1);
     const [from, to] = [await handleAt(page, 3), await handleAt(page, 3, 'end')];
     expect(Math.hypot(to.x - from.x, to.y - from.y)).toBeGreaterThan(25);
     const head = await handleAt(page, 0);
     await page.mouse.dblclick(head.x, head.y + 45);
-    await soon(() => page.locator('.handle.start').count()).toBe(5);
+    await soon(() => page.locator('.point.start').count()).toBe(5);
     const added = await handleAt(page, 4);
     expect(Math.hypot(added.x - head.x, added.y - head.y - 45)).toBeLessThan(3);
     // Beside the shape there is nothing to hold.
-    const area = await page.locator('#picture').boundingBox();
+    const area = await page.locator('.picture').boundingBox();
     await page.mouse.dblclick((area?.x ?? 0) + 12, (area?.y ?? 0) + 12);
     await frames(page, 2);
-    expect(await page.locator('.handle.start').count()).toBe(5);
+    expect(await page.locator('.point.start').count()).toBe(5);
     for (let i = 4; i >= 0; i--) {
-      await page.locator('.handle.start').nth(i).focus();
+      await page.locator('.point.start').nth(i).focus();
       await page.keyboard.press('Delete');
       await frames(page, 2);
     }
     await rested(page);
-    expect(await page.locator('.handle.start').count()).toBe(0);
+    expect(await page.locator('.point.start').count()).toBe(0);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
     expect(await trouble(page)).toBe('');
     expect(said).toEqual([]);
@@ -273,36 +287,36 @@ describe('handles', () => {
     await box('Rest x').fill('0.7');
     await box('Rest x').press('Enter');
     await rested(page);
-    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
   });
 });
 
 describe('the focus', () => {
   it('goes to a neighbor of a handle that is deleted, at last to what adds one', async () => {
     const { page } = await bend(browser, '#shape=bar&h=p:-1,0~b:-0.6,0,-0.2,0~p:0.3,0~b:0.5,0,0.9,0~p:1,0');
-    await page.locator('.handle.start').nth(2).focus();
+    await page.locator('.point.start').nth(2).focus();
     await page.keyboard.press('Delete');
     expect(await focused(page)).toMatch(/^Bone 2,/);
-    await page.locator('.handle.start').nth(3).focus();
+    await page.locator('.point.start').nth(3).focus();
     await page.keyboard.press('Delete');
     expect(await focused(page)).toMatch(/^Bone 2,/);
-    await page.locator('.handle.end[data-handle="1"]').focus();
+    await page.locator('.point.end[data-handle="1"]').focus();
     await page.keyboard.press('Backspace');
     expect(await focused(page)).toMatch(/^Bone 1,/);
     for (const label of [/^Handle 0,/, /^Add a point$/]) {
-      await page.locator('#tools button', { hasText: /^Remove/ }).click();
+      await page.locator('.shape-panel .tools button', { hasText: /^Remove/ }).click();
       expect(await focused(page)).toMatch(label);
     }
   });
 
   it('shows a handle that is beside the picture at its rim, and Home brings it back', async () => {
     const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16,9,0,0~p:0,-0.1');
-    const far = page.locator('.handle.start').nth(1);
+    const far = page.locator('.point.start').nth(1);
     const opacity = () => far.evaluate((element) => getComputedStyle(element).opacity);
     expect(await opacity()).toBe('0');
     await far.focus();
     expect(await opacity()).toBe('1');
-    const [box, area] = [await far.boundingBox(), await page.locator('#picture').boundingBox()];
+    const [box, area] = [await far.boundingBox(), await page.locator('.picture').boundingBox()];
     expect((box?.x ?? 0) + (box?.width ?? 0)).toBeLessThanOrEqual((area?.x ?? 0) + (area?.width ?? 0));
     await page.keyboard.press('Home');
     await frames(page, 2);
@@ -311,15 +325,15 @@ describe('the focus', () => {
 
   it('stays in a group of choices under the arrow keys', async () => {
     const { page } = await bend(browser, '#ring');
-    await page.locator('input[name=shape]:checked').focus();
+    await chosen(page, 'Shape').focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
     expect(await page.locator('.own').isVisible()).toBe(true);
     expect(await focused(page)).toBe('Your own');
     await page.keyboard.press('Escape');
     expect(await page.locator('.own').isVisible()).toBe(false);
-    expect(await page.locator('input[name=shape]:checked').inputValue()).toBe('octopus');
-    await page.locator('input[name=shape][value=own]').check();
+    expect(await chosen(page, 'Shape').inputValue()).toBe('octopus');
+    await choiceOf(page, 'own').check();
     await page.getByRole('button', { name: 'Cancel' }).press('Enter');
     expect(await focused(page)).toBe('Octopus');
   });
@@ -330,30 +344,31 @@ describe('links', () => {
     ['crosses itself', '0,0,1000,1000,1000,0,0,1000', /cross or touch\. Check/],
     ['is cut short', '0,0,1000,0', /encloses nothing/],
     ['is no size at all', '0,0,1e-300,0,0,1e-300', /encloses no area/],
-    ['is larger than anything', '0,0,1e300,0,0,1e300', /^Left out of this link/],
+    ['is larger than anything', '0,0,1e300,0,0,1e300', /^Of the link this could not be read/],
   ])('with an outline that %s: the man stands in, and everything works', async (_, outline, told) => {
-    const { page, said } = await bend(browser, `#shape=own&o=${outline}&m=rigid-harmonic&show=mesh`);
-    expect(await trouble(page)).toMatch(told);
-    expect(await page.locator('#title').textContent()).toBe('Gingerbread man');
-    expect(await page.locator('#show-mesh').isChecked()).toBe(true);
+    // A page of its own: where something is shown already, that stays.
+    const { page, said } = await bend(browser, `#shape=own&o=${outline}&m=rigid-harmonic&show=mesh`, { locale: 'en' });
+    expect(await words(page)).toMatch(told);
+    expect(await page.locator('.figure-title').textContent()).toBe('Gingerbread man');
+    expect(await page.getByLabel('Triangles', { exact: true }).isChecked()).toBe(true);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
-    await page.locator('input[name=shape][value=ring]').check();
+    await choiceOf(page, 'ring').check();
     await rested(page);
-    expect(await page.locator('#title').textContent()).toBe('Ring');
-    expect(await page.locator('#trouble').isVisible()).toBe(false);
-    expect(await page.evaluate(() => location.hash)).toBe('#shape=ring&m=rigid-harmonic');
+    expect(await page.locator('.figure-title').textContent()).toBe('Ring');
+    expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
+    expect(await page.evaluate(() => location.hash)).toBe('#v1&from=ring&m=rigid-harmonic');
     expect(said).toEqual([]);
   });
 
   it('that are partly wrong open as far as they are right, by hand too', async () => {
     const { page, said } = await bend(browser, '#shape=bar&foo=1&m=none&h=q:1~p:0,0');
-    expect(await trouble(page)).toMatch(/^Left out of this link.*“foo=1”, “m=none”, “q:1”\. The rest is shown\./);
-    expect(await page.locator('.handle.start').count()).toBe(1);
+    expect(await words(page)).toMatch(/^Of the link this could not be read and was left out: “foo=1”, “m=none”, “q:1”\.$/);
+    expect(await page.locator('.point.start').count()).toBe(1);
     await page.evaluate(() => {
       location.hash = '#octopus';
     });
-    await soon(() => page.locator('#title').textContent()).toBe('Octopus');
-    expect(await page.locator('#trouble').isVisible()).toBe(false);
+    await soon(() => page.locator('.figure-title').textContent()).toBe('Octopus');
+    expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
     expect(said).toEqual([]);
   });
 
@@ -369,7 +384,7 @@ describe('links', () => {
     ],
   ])('with %s: drawn or said', async (_, handles, told) => {
     const { page, said } = await bend(browser, `#shape=man&h=${handles}`);
-    expect(await trouble(page)).toMatch(told);
+    expect(await words(page)).toMatch(told);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
     expect(said).toEqual([]);
   });

@@ -82,15 +82,15 @@ const PAGES: readonly Kinds[] = [
   },
   {
     address: 'learn/gingerbread/#shape=man&show=weight&pick=1',
-    ready: '[data-rest=yes]',
-    picture: '#canvas',
-    handle: '.handle.start',
-    choose: focus('.handle.start'),
+    ready: '[data-state=ready][data-rest=yes]',
+    picture: '.picture canvas',
+    handle: '.point.start',
+    choose: focus('.point.start'),
     colors: [
       ['.legend-strip', 8],
       ['.hatch.below', 2],
     ],
-    plots: [['.picture', '.handle, .knob, .legend-strip']],
+    plots: [['.picture', '.point, .knob, .legend-strip']],
     card: true,
   },
   { address: '', ready: 'main', colors: [], plots: [] },
@@ -100,19 +100,22 @@ const PAGES: readonly Kinds[] = [
 async function kindsOf(page: Page, { address, ready }: Kinds): Promise<Kinds> {
   const has = async (selector: string) => (await page.locator(selector).count()) > 0;
   const [space, map, handles] = [await has('.panels .stage'), await has('.panels .field'), await has('.panels .handle')];
-  const handle = `.panels > :first-child ${handles ? '.handle' : '.point:not([aria-hidden])'}`;
+  const shape = await has('.panels .picture');
+  const handle = `.panels > :first-child ${handles ? '.handle' : '.point:not([aria-hidden], [hidden])'}`;
   return {
     address,
     ready,
-    picture: space ? '.panels .stage canvas' : map ? '.panels .field canvas' : '.panels .chart svg',
+    picture: shape ? '.picture canvas' : space ? '.panels .stage canvas' : map ? '.panels .field canvas' : '.panels .chart svg',
     ...((await has(handle)) && { handle, choose: focus(handle) }),
     colors: [...((await has('.ramp')) ? [['.ramp div', 8] as const] : []), ...(map ? [['.scale-strip', 8] as const] : [])],
     plots: [
       ...((await has('.panels .chart')) ? [['.panels .chart', '.point, text, path'] as const] : []),
       ...(handles ? [['.panels .stage', '.handle'] as const] : []),
       ...((await has('.ramp')) ? [['.ramp', 'div'] as const] : []),
+      ...(shape ? [['.picture', '.point'] as const] : []),
     ],
-    ...(space && { card: true, shadow: true }),
+    ...((space || shape) && { card: true }),
+    ...(space && { shadow: true }),
   };
 }
 

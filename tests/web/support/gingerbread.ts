@@ -16,7 +16,7 @@ export async function bend(
   const address = `${inject('site')}learn/gingerbread/${hash}`;
   if (!before && state === 'ready' && Object.keys(options).length === 0) {
     const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
-    await opened.page.waitForSelector('#lesson[data-state=ready]', { timeout: 60_000 });
+    await opened.page.waitForSelector('[data-figure=gingerbread][data-state=ready]', { timeout: 60_000 });
     await rested(opened.page);
     return opened;
   }
@@ -27,7 +27,7 @@ export async function bend(
   if (before) await page.addInitScript(before);
   // What the page says of itself is waited for: a loaded machine is slow to load.
   await page.goto(address, { waitUntil: 'commit', timeout: 60_000 });
-  await page.waitForSelector(`#lesson[data-state=${state}]`, { timeout: 60_000 });
+  await page.waitForSelector(`[data-figure=gingerbread][data-state=${state}]`, { timeout: 60_000 });
   if (state === 'ready') await rested(page);
   return { page, said };
 }
@@ -35,7 +35,7 @@ export async function bend(
 /** Waits until nothing has moved for a while: the address is written. */
 export async function rested(page: Page): Promise<void> {
   await page.waitForFunction(
-    () => document.getElementById('lesson')?.dataset.rest === 'yes' && document.getElementById('note')?.hidden,
+    () => document.querySelector('.figure[data-rest=yes]') && document.querySelector('.progress[hidden]'),
     undefined,
     { timeout: 60_000 },
   );
@@ -56,21 +56,47 @@ export async function finished(page: Page): Promise<void> {
 
 /** Middle of a handle on the screen: of a bone's first end. */
 export async function handleAt(page: Page, i: number, part: 'start' | 'end' = 'start'): Promise<{ x: number; y: number }> {
-  const box = await page.locator(`.handle.${part}[data-handle="${i}"]`).boundingBox();
+  const box = await page.locator(`.point.${part}[data-handle="${i}"]`).boundingBox();
   if (!box) throw new Error(`there is no handle ${i}`);
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
 }
 
 /** x, y and turn of a handle, as it says them. */
 export async function spoken(page: Page, i: number): Promise<number[]> {
-  const label = (await page.locator(`.handle.start[data-handle="${i}"]`).getAttribute('aria-label')) ?? '';
+  const label = (await page.locator(`.point.start[data-handle="${i}"]`).getAttribute('aria-label')) ?? '';
   return (label.replaceAll('−', '-').match(/-?[\d.]+/g) ?? []).slice(1).map(Number);
+}
+
+/** A control of its kind by its words: a shape, a family of methods, a kind of weights. */
+export function choiceOf(page: Page, value: string) {
+  return page.locator(`.choices input[value=${value}]`);
+}
+
+/** What is chosen in a group of choices. */
+export function chosen(page: Page, group: 'Shape' | 'Method' | 'Kind') {
+  return page.getByRole('group', { name: group, exact: true }).locator('input:checked');
+}
+
+/** What went wrong, in words. */
+export async function trouble(page: Page): Promise<string | null> {
+  return page.locator('.figure > .trouble').textContent();
+}
+
+/** What of the link could not be shown, and what went wrong, in words. */
+export async function words(page: Page): Promise<string> {
+  return `${await page.locator('.notice').textContent()}${await trouble(page)}`;
+}
+
+/** A row of what the figure tells. */
+export async function fact(page: Page, name: string): Promise<string | null> {
+  const row = page.locator('.facts dt', { hasText: new RegExp(`^${name}$`) });
+  return (await row.count()) === 0 ? null : row.locator('xpath=following-sibling::dd[1]').first().textContent();
 }
 
 /** The shape without what lies over it. */
 export async function picture(page: Page): Promise<PNG> {
-  const style = '.overlay, .trouble, .note, .legend, .own, .veil { visibility: hidden !important; }';
-  return PNG.sync.read(await page.locator('#picture').screenshot({ style, animations: 'disabled' }));
+  const style = '.overlay, .picture .note, .legend, .own, .veil, .progress { visibility: hidden !important; }';
+  return PNG.sync.read(await page.locator('.picture').screenshot({ style, animations: 'disabled' }));
 }
 
 /** How many pixels are the shape's: of a color that the ground has not. */
@@ -102,4 +128,15 @@ export async function passTime(page: Page, milliseconds: number): Promise<void> 
   await page.evaluate((by) => {
     (globalThis as { stoppedAt?: number }).stoppedAt = performance.now() + by;
   }, milliseconds);
+}
+
+/** In the page, before anything else: the graphics card, which loseContext() takes away, of a canvas that is nowhere in the page. */
+export function losable(): void {
+  const original = HTMLCanvasElement.prototype.getContext as (...args: unknown[]) => RenderingContext | null;
+  HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+    const context = original.call(this, kind, ...rest);
+    if (kind === 'webgl2' && context)
+      Object.assign(globalThis, { extension: (context as WebGL2RenderingContext).getExtension('WEBGL_lose_context') });
+    return context;
+  } as typeof HTMLCanvasElement.prototype.getContext;
 }

@@ -130,15 +130,15 @@ export function soon<T>(read: () => T) {
 export async function loseContext(page: Page): Promise<void> {
   const call = (what: 'loseContext' | 'restoreContext') =>
     page.evaluate((method) => {
-      const canvas = document.getElementById('canvas') as HTMLCanvasElement;
+      const canvas = document.getElementById('canvas') as HTMLCanvasElement | null;
       const keep = globalThis as { extension?: WEBGL_lose_context | null };
-      keep.extension ??= canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
+      keep.extension ??= canvas?.getContext('webgl2')?.getExtension('WEBGL_lose_context') ?? null;
       keep.extension?.[method]();
     }, what);
   await call('loseContext');
-  await page.locator('#note', { hasText: 'interrupted' }).waitFor();
+  await page.locator('#note, .picture .note').filter({ hasText: 'interrupted' }).waitFor();
   await call('restoreContext');
-  await page.locator('#note').waitFor({ state: 'hidden' });
+  await page.locator('#note, .picture .note').first().waitFor({ state: 'hidden' });
 }
 
 /** Fingers by number: `touch('touchStart', [x, y, 0], [x, y, 1])`. One that is missing from the next call has lifted. */

@@ -14,8 +14,12 @@ export interface Work<M = unknown> {
   alone(): void;
 }
 
+/** Does what goes on between frames, as finer weights: the figure comes to rest, and moves once more, when it has ended. What fails is told. */
+export type Wait = (label: string, work: (progress: (part: number) => void) => Promise<unknown>) => void;
+
 /** What a panel can ask for. */
 export interface Kit<S, M = unknown> {
+  /** Once it has come: after the figure's `sketch`. */
   readonly hb: HandlebodyRuntime;
   readonly state: S;
   /** What was made last, once there is something. */
@@ -28,6 +32,7 @@ export interface Kit<S, M = unknown> {
   readonly address: string;
   /** Says what went wrong, in the figure's own line. */
   tell(error: unknown): void;
+  readonly wait: Wait;
   /** Lets all in the pictures fade but what has this `data-key`; nothing for none. */
   emphasize(key?: number): void;
   /** Gives the focus, after the next frame, to the first of these that is seen; else to `other`. */
@@ -60,7 +65,8 @@ export interface PartControl<S> {
   /** The same one as long as it is of the same kind: what it returns is compared. */
   parameter(state: S): Parameter;
   read(state: S): unknown;
-  write(state: S, value: never): Partial<S>;
+  /** The channels that it sets, or the preset that it begins. */
+  write(state: S, value: never): Partial<S> | string;
   /** Whether it matters; always, where this is left out. */
   when?(state: S): boolean;
 }
@@ -78,6 +84,8 @@ export interface Figure<C extends Channels, M> {
   /** Permanent: its address, and the name by which others embed it. */
   readonly id: string;
   readonly title: string;
+  /** Instead of the preset's title, where that is not what is shown. */
+  titleOf?(state: StateOf<C>): string | undefined;
   /** What its state holds. Those with controls get them, in this order. */
   readonly parameters: C;
   /** Above its controls. */
@@ -96,13 +104,17 @@ export interface Figure<C extends Channels, M> {
   readonly moving?: readonly (keyof C)[];
   /** Channels that only the pictures depend on. */
   readonly shown?: readonly (keyof C)[];
+  /** Channels that stay as they are when a preset is begun that says nothing of them. */
+  readonly kept?: readonly (keyof C)[];
   /** The whole solver is fetched, where a figure bakes or computes weights. */
   readonly whole?: boolean;
-  /** `last` is what was made before: it may be changed and returned again. */
+  /** What is drawn before the solver has come. */
+  sketch?(state: StateOf<C>): M;
+  /** `last` is what was made before, or sketched: it may be changed and returned again. */
   make(hb: HandlebodyRuntime, state: StateOf<C>, work: Work<M>, last?: M): M | Promise<M>;
   /** Whether there is more to do with the next frame. */
   // biome-ignore lint/suspicious/noConfusingVoidType: most have nothing to say
-  move?(made: M, state: StateOf<C>): boolean | void;
+  move?(made: M, state: StateOf<C>, wait: Wait): boolean | void;
   /** What takes longer than a frame, and is made when nothing moves: before the last picture, and before `told`. */
   settle?(made: M, state: StateOf<C>): void;
   readonly panels: Readonly<Record<string, Panel<M, StateOf<C>>>>;

@@ -10,7 +10,7 @@ import { Progress } from '../../ui/progress.ts';
 import { Trouble } from '../../ui/trouble.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControls, partsOf } from './controls.ts';
-import type { Figure, Kit, OpenPanel, Panel, Told, Work } from './figure.ts';
+import type { Figure, Kit, OpenPanel, Panel, Told, Wait, Work } from './figure.ts';
 import { savePicture } from './save-picture.ts';
 import { fromText, type Preset, type ReadState, stateOfPreset, toText } from './state-text.ts';
 import { brief } from './words.ts';
@@ -75,6 +75,7 @@ export class Live<C extends Channels, M extends Disposable> {
   readonly #controls: PartShown<StateOf<C>>;
   readonly #presets = new Map<string, HTMLButtonElement>();
   readonly #slots: readonly Slot<M, StateOf<C>>[];
+  readonly #kit: Kit<StateOf<C>, M>;
   readonly #sides: readonly HTMLInputElement[];
   /** The sides that are not shown, as they were left. */
   readonly #aside = new Map<number, Shown<C>>();
@@ -89,12 +90,18 @@ export class Live<C extends Channels, M extends Disposable> {
   #work: AbortController | undefined;
   #unmade = true;
   #unmoved = false;
+  /** Why the last movement was none: told once. */
+  #stuck = '';
+  /** What goes on between frames. */
+  #waits = 0;
   /** No worker could be started: said until it is dismissed. */
   #alone = false;
   #frame = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #told: readonly Told[] = [];
   #text = '';
+  /** The preset and the title at that. */
+  #toldAs = '';
   #disposed = false;
 
   constructor(figure: Figure<C, M>, options: LiveOptions) {
@@ -102,9 +109,13 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#options = options;
     const read = this.#read(options.state ?? '');
     [this.#preset, this.#state] = [read.preset, read.state];
-    this.#controls = partControls(partsOf(figure), this.#state, (part, value) =>
-      this.change(part.write(this.#visible, value as never)),
-    );
+    this.#controls = partControls(partsOf(figure), this.#state, (part, value) => {
+      const patch = part.write(this.#visible, value as never);
+      const preset = figure.presets.find(({ id }) => id === patch);
+      if (preset) this.#begin(preset);
+      else if (typeof patch !== 'string') this.change(patch);
+    });
+    this.#kit = this.#makeKit();
     this.#slots = Object.values(figure.panels).map((panel) => {
       const place = h('div', { hidden: true });
       place.style.display = 'contents';
@@ -165,6 +176,7 @@ export class Live<C extends Channels, M extends Disposable> {
     else {
       if (keys.some((key) => !isLight(key) && patch[key] !== this.#state[key])) this.#unmade = true;
       this.#state = { ...this.#state, ...patch };
+      if (!this.#unmade && this.#good) this.#good = { preset: this.#preset, state: this.#state };
     }
     if (this.#unmade) this.element.dataset.state = this.#good ? 'ready' : 'loading';
     this.#stir();
@@ -266,6 +278,7 @@ export class Live<C extends Channels, M extends Disposable> {
   async #open(): Promise<void> {
     try {
       const { solvers } = this.#options;
+      if (this.#figure.sketch) await this.#sketch();
       this.#hb = await (this.#figure.whole ? solvers.whole() : solvers.runtime());
       if (this.#disposed) return;
       this.#stir();
@@ -274,8 +287,27 @@ export class Live<C extends Channels, M extends Disposable> {
     } catch (error) {
       this.element.dataset.state = 'failed';
       this.element.dataset.rest = 'yes';
-      this.#trouble.tell(error);
+      const again = () => {
+        this.element.dataset.state = 'loading';
+        void this.#open();
+      };
+      this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
     }
+  }
+
+  /** Draws what needs no solver, as `data-drawn` says. */
+  async #sketch(): Promise<void> {
+    // What does not come is heard of when the rest is made.
+    this.#openPanels(this.#state)?.catch(() => {});
+    await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+    if (this.#made || this.#disposed) return;
+    try {
+      this.#made = this.#figure.sketch?.(this.#state);
+    } catch {
+      // What cannot be made says why, then.
+    }
+    this.#draw();
+    this.element.toggleAttribute('data-drawn', true);
   }
 
   /** Small pictures, one after another, when there is time. */
@@ -292,10 +324,10 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   /** The panels that a state shows; those that were not shown before may have to be fetched first. */
-  #openPanels(hb: HandlebodyRuntime, state: StateOf<C>): Promise<unknown> | undefined {
+  #openPanels(state: StateOf<C>): Promise<unknown> | undefined {
     const coming = this.#slots.flatMap((slot) => {
       if (slot.opened || !(slot.panel.shown?.(state) ?? true)) return [];
-      const opening = slot.panel.open(this.#kit(hb));
+      const opening = slot.panel.open(this.#kit);
       const keep = (opened: OpenPanel<M, StateOf<C>>) => {
         if (slot.opened || this.#disposed) opened.dispose();
         else slot.opened = opened;
@@ -305,12 +337,15 @@ export class Live<C extends Channels, M extends Disposable> {
     return coming.length > 0 ? Promise.all(coming) : undefined;
   }
 
-  #kit(hb: HandlebodyRuntime): Kit<StateOf<C>, M> {
+  #makeKit(): Kit<StateOf<C>, M> {
+    const hb = () => this.#hb as HandlebodyRuntime;
     const made = () => this.#made;
     const state = () => this.#visible;
     const address = () => this.#options.address?.(this.state) ?? this.state;
     return {
-      hb,
+      get hb() {
+        return hb();
+      },
       get state() {
         return state();
       },
@@ -323,6 +358,7 @@ export class Live<C extends Channels, M extends Disposable> {
         return address();
       },
       tell: (error) => this.#trouble.tell(error),
+      wait: this.#wait,
       emphasize: (key) => {
         this.#emphasis = key;
         this.#fade();
@@ -334,6 +370,25 @@ export class Live<C extends Channels, M extends Disposable> {
         }),
     };
   }
+
+  #wait: Wait = async (label, work) => {
+    const begun = performance.now();
+    this.#waits++;
+    try {
+      await work((part) => {
+        if (this.#work || performance.now() - begun < PATIENCE) return;
+        if (this.#busy.hidden) this.#progress.begin(label);
+        this.#progress.set(part);
+      });
+    } catch (error) {
+      this.#trouble.tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
+    } finally {
+      this.#waits--;
+      if (!this.#work) this.#progress.end();
+      this.#unmoved = true;
+      if (!this.#disposed) this.#stir();
+    }
+  };
 
   #fade(): void {
     const key = this.#emphasis === undefined ? undefined : String(this.#emphasis);
@@ -356,7 +411,9 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   #begin(preset: Preset<C>): void {
-    this.#choose({ preset, state: stateOfPreset(this.#figure.parameters, preset) });
+    const [seen, base] = [this.#visible, stateOfPreset(this.#figure.parameters, preset)];
+    const kept = (this.#figure.kept ?? []).filter((key) => !(key in preset.state)).map((key) => [key, seen[key]]);
+    this.#choose({ preset, state: { ...base, ...Object.fromEntries(kept) } });
   }
 
   #choose({ preset, state }: Shown<C>): void {
@@ -382,9 +439,14 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #move(made: M): void {
     this.#unmoved = false;
-    this.#attempt(() => {
-      if (this.#figure.move?.(made, this.#visible)) this.#unmoved = true;
-    });
+    try {
+      if (this.#figure.move?.(made, this.#visible, this.#wait)) this.#unmoved = true;
+      if (this.#stuck) this.#trouble.clear();
+      this.#stuck = '';
+    } catch (error) {
+      if (this.#stuck !== String(error)) this.#trouble.tell(error);
+      this.#stuck = String(error);
+    }
     if (this.#unmoved) this.#frame ||= requestAnimationFrame(() => void this.#run());
   }
 
@@ -424,7 +486,7 @@ export class Live<C extends Channels, M extends Disposable> {
   /** What is beside the pictures waits for none of them. */
   #making(hb: HandlebodyRuntime, state: StateOf<C>, signal: AbortSignal): M | Promise<M> {
     const make = () => this.#figure.make(hb, state, this.#worker(signal), this.#made);
-    const opening = this.#openPanels(hb, state);
+    const opening = this.#openPanels(state);
     if (!opening) return make();
     // Heard of below, unless something else goes wrong before.
     opening.catch(() => {});
@@ -465,12 +527,14 @@ export class Live<C extends Channels, M extends Disposable> {
 
   /** A link may ask for what cannot be made: then the preset stands in, and says so. */
   #fallBack(error: unknown): void {
-    const preset = stateOfPreset(this.#figure.parameters, this.#preset);
-    if (toText(this.#figure.parameters, this.#preset, preset) === this.state) {
+    const { parameters, shown = [], kept = [] } = this.#figure;
+    const light = [...shown, ...kept].map((key) => [key, this.#state[key]]);
+    const instead = { ...stateOfPreset(parameters, this.#preset), ...Object.fromEntries(light) };
+    if (toText(parameters, this.#preset, instead) === this.state) {
       this.element.dataset.state = 'failed';
       return;
     }
-    this.#state = preset;
+    this.#state = instead;
     this.#unmade = true;
     this.#stir();
     const { message, remedy } = explain(error);
@@ -519,7 +583,7 @@ export class Live<C extends Channels, M extends Disposable> {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       // A slow machine has not drawn yet what is to be at rest.
-      if (this.#frame !== 0 || this.#work || !this.#hb) return this.#restSoon();
+      if (this.#frame !== 0 || this.#work || this.#waits > 0 || !this.#hb) return this.#restSoon();
       this.#rest();
     }, REST);
   }
@@ -542,7 +606,9 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#spoken.textContent = say ?? words.map(([name, value]) => `${name}: ${value}.`).join(' ');
     const { state } = this;
     if (state !== this.#text) {
-      const another = this.#text !== '' && state === `v1&${this.#preset.id}`;
+      const shown = `${this.#preset.id} ${this.#title.textContent}`;
+      const another = this.#text !== '' && (state === `v1&${this.#preset.id}` || shown !== this.#toldAs);
+      this.#toldAs = shown;
       this.#text = state;
       this.#options.onChange?.(state, another);
     }
@@ -558,7 +624,7 @@ export class Live<C extends Channels, M extends Disposable> {
     if (this.element.dataset.state === 'failed' && !this.#work)
       for (const radio of this.element.querySelectorAll<HTMLInputElement>('input[type=radio]')) radio.checked = false;
     const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
-    this.#title.textContent = title;
+    this.#title.textContent = this.#figure.titleOf?.(this.#visible) ?? title;
     this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
     const another = this.#presets.get(this.#preset.id)?.ariaPressed !== 'true';
     for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);

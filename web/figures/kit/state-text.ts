@@ -72,8 +72,10 @@ export function fromText<C extends Channels>(
     const [name, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
     const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
     const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
+    // No preset, perhaps a channel of that name.
+    const channel = key === 'from' ? name : key;
     if (named) preset = named;
-    else if (Object.hasOwn(channels, key)) given.set(key, [...(given.get(key) ?? []), [part, plain(value)]]);
+    else if (Object.hasOwn(channels, channel)) given.set(channel, [...(given.get(channel) ?? []), [part, plain(value)]]);
     else left.push(quoted(plain(part)));
   }
   const said = new Set(preset ? ['from'] : []);

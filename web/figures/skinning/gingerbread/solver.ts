@@ -4,9 +4,9 @@ import {
   type LinearBlend,
   WEIGHT_REQUIREMENTS,
   type WeightHandle,
-} from '../../../wasm/ts/index.ts';
-import type { PlaneMesh } from '../../models/mesh-shape.ts';
-import type { Handle } from './experiment.ts';
+} from '../../../../wasm/ts/index.ts';
+import type { PlaneMesh } from '../../../models/mesh-shape.ts';
+import type { Handle } from '../../kit/plane-handles.ts';
 import type { EnergyKind, WeightsKind } from './methods.ts';
 
 /** The page's one door to the solver: what it asks for, in its own words. */

@@ -1,6 +1,6 @@
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import { inside, type Shape } from '../../models/shape.ts';
-import { bone, type Handle, type Place, point, tidy } from './experiment.ts';
+import { bone, type Handle, type Place, point, toThousandths } from './plane-handles.ts';
 
 /** A bone is at most as long as this. */
 const LONGEST_BONE = 0.36;
@@ -19,7 +19,7 @@ export function emptiest({ positions, border }: PlaneMesh, handles: readonly Han
       for (const [px, py] of end ? [rest, end] : [rest]) least = Math.min(least, Math.hypot(x - px, y - py));
     if (least > farthest) [best, farthest] = [[x, y], least];
   }
-  return [tidy(best[0]), tidy(best[1])];
+  return [toThousandths(best[0]), toThousandths(best[1])];
 }
 
 /** Points far from each other. */
@@ -38,7 +38,7 @@ export function boneIn(outline: Shape, end: Place): Handle | undefined {
     const isFree = (length: number) => inside(outline, end[0] + c * length, end[1] + s * length);
     let length = 0;
     while (length < LONGEST_BONE && isFree(length + CLEARANCE)) length += 0.02;
-    if (length > longest) [longest, start] = [length, [tidy(end[0] + c * length), tidy(end[1] + s * length)]];
+    if (length > longest) [longest, start] = [length, [toThousandths(end[0] + c * length), toThousandths(end[1] + s * length)]];
   }
   return longest > 0 ? bone(start, end) : undefined;
 }

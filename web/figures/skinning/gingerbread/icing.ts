@@ -1,12 +1,6 @@
-import { extentOf, type Shape } from '../../models/shape.ts';
-import type { Place } from './experiment.ts';
-
-/** A canvas and the part of the plane that it covers. */
-export interface PaintedShape {
-  readonly canvas: HTMLCanvasElement;
-  readonly low: Place;
-  readonly high: Place;
-}
+import { extentOf, type Shape } from '../../../models/shape.ts';
+import type { Place } from '../../kit/plane-handles.ts';
+import type { PaintedShape } from '../../kit/shape-picture.ts';
 
 /** Colors of a biscuit. */
 interface Dough {

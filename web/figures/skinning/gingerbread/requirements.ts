@@ -1,22 +1,30 @@
-import { h } from '../../ui/dom.ts';
-import type { Lesson } from './lesson.ts';
-import { METHODS, WEIGHTS_KINDS, type WeightsKind } from './methods.ts';
+import { h } from '../../../ui/dom.ts';
+import type { Kit, OpenPanel, Panel } from '../../kit/figure.ts';
+import { restsOf } from '../../kit/plane-handles.ts';
+import type { Bent, State } from './bent.ts';
+import { METHODS, type Method, methodOf, WEIGHTS_KINDS, type WeightsKind } from './methods.ts';
 import { type Measure, measureWeights, REQUIREMENTS } from './solver.ts';
 
 /** A place to break a long name. */
 const hyphened = (name: string) => name.replace(/^(Bi|Tri)/, '$1\u00ad');
 
 /** The lecture's requirements, each kind of weights measured against them on this shape with these handles. */
-export class Requirements {
+export const requirements: Panel<Bent, State> = { place: 'below', open: (kit) => new Requirements(kit) };
+
+class Requirements implements OpenPanel<Bent, State> {
   readonly element: HTMLElement;
-  readonly #lesson: Lesson;
   readonly #heads = new Map<WeightsKind, HTMLElement>();
   readonly #cells = new Map<WeightsKind, HTMLElement[]>();
   #queue: WeightsKind[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
+  /** The mesh and the handles at rest that were measured. */
+  #of: readonly [unknown, string] = [undefined, ''];
 
-  constructor(lesson: Lesson, choose: (kind: WeightsKind) => void) {
-    this.#lesson = lesson;
+  constructor(kit: Kit<State>) {
+    const choose = (kind: WeightsKind) => {
+      const { family } = methodOf(kit.state.m) as Method;
+      kit.change({ m: `${family === 'rigid' ? 'rigid' : 'linear'}-${kind}` });
+    };
     const names = new Map(METHODS.map(({ kind, name }) => [kind, name]));
     for (const kind of WEIGHTS_KINDS) {
       const button = h(
@@ -41,7 +49,7 @@ export class Requirements {
     this.element = h(
       'section',
       { 'aria-labelledby': 'requirements-title', class: 'requirements' },
-      h('h2', { id: 'requirements-title' }, 'What weights should be'),
+      h('h3', { id: 'requirements-title' }, 'What weights should be'),
       h(
         'table',
         {},
@@ -50,41 +58,45 @@ export class Requirements {
       ),
       h(
         'details',
-        { class: 'soft small' },
+        { class: 'soft' },
         h('summary', {}, 'What the numbers mean'),
         h('dl', {}, ...REQUIREMENTS.flatMap(({ name, said }) => [h('dt', {}, name), h('dd', {}, said)])),
       ),
     );
   }
 
-  /** Marks the weights in use. */
-  update(): void {
+  /** Marks the weights in use. The rest has to wait while somebody does something. */
+  draw(_: Bent, { m }: State): void {
+    clearTimeout(this.#timer);
     for (const [kind, head] of this.#heads) {
-      const current = kind === this.#lesson.method.kind;
+      const current = kind === methodOf(m)?.kind;
       for (const cell of [head, ...(this.#cells.get(kind) ?? [])]) cell.toggleAttribute('data-current', current);
     }
   }
 
-  /** Other handles or another mesh: measures again while nothing else happens, the slowest last. */
-  refresh(): void {
-    this.#queue = [...WEIGHTS_KINDS].sort((a, b) => Number(a === 'bounded') - Number(b === 'bounded'));
-    this.element.toggleAttribute('data-done', false);
-    this.resume();
+  /** With other handles or another mesh measures again, the slowest last. */
+  refine(bent: Bent, state: State): void {
+    const rests = restsOf(bent.handles(state));
+    if (this.#of[0] !== bent.mesh || this.#of[1] !== rests) {
+      this.#of = [bent.mesh, rests];
+      this.#queue = [...WEIGHTS_KINDS].sort((a, b) => Number(a === 'bounded') - Number(b === 'bounded'));
+      this.element.toggleAttribute('data-done', false);
+    }
+    this.#soon(bent, state);
   }
 
-  pause(): void {
+  dispose(): void {
     clearTimeout(this.#timer);
-    this.#timer = undefined;
   }
 
-  resume(): void {
-    if (this.#queue.length > 0) this.#timer ??= setTimeout(() => this.#next(), 60);
+  #soon(bent: Bent, state: State): void {
+    clearTimeout(this.#timer);
+    if (this.#queue.length > 0) this.#timer = setTimeout(() => this.#next(bent, state), 60);
   }
 
-  #next(): void {
-    this.#timer = undefined;
-    const kind = this.#queue.shift();
-    const { deformer, handles } = this.#lesson;
+  #next(bent: Bent, state: State): void {
+    const [kind, handles] = [this.#queue.shift(), bent.handles(state)];
+    const { deformer } = bent;
     if (!kind || !deformer) return;
     let measures: readonly (Measure | undefined)[] = [];
     if (handles.length > 0) {
@@ -108,6 +120,6 @@ export class Requirements {
       cell.toggleAttribute('data-broken', measure?.holds === false);
     });
     this.element.toggleAttribute('data-done', this.#queue.length === 0);
-    this.resume();
+    this.#soon(bent, state);
   }
 }

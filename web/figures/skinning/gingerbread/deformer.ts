@@ -1,6 +1,6 @@
-import type { Handlebody } from '../../../wasm/ts/index.ts';
-import type { PlaneMesh } from '../../models/mesh-shape.ts';
-import { type Handle, writeTransforms } from './experiment.ts';
+import type { Handlebody } from '../../../../wasm/ts/index.ts';
+import type { PlaneMesh } from '../../../models/mesh-shape.ts';
+import { type Handle, writeTransforms } from '../../kit/plane-handles.ts';
 import type { DistanceKind, EnergyKind, Method, MethodId, WeightsKind } from './methods.ts';
 import { weightsOf } from './methods.ts';
 import { type Deformation, energyMinimizer, linearBlend, rigidBlend, solveWeights, type Weights } from './solver.ts';
@@ -67,22 +67,19 @@ export class Deformer {
   }
 
   /**
-   * Finishes bounded weights in small steps; until then they are biharmonic. Returns whether anything has changed. Throws what the solver
-   * throws, and `weights` throws it from then on, until there are other handles.
+   * Finishes bounded weights in small steps; until then they are biharmonic. What the solver throws `weights` throws from then on, until
+   * there are other handles.
    */
-  async finishBounded(onProgress: (part: number) => void): Promise<boolean> {
-    if (this.#finishing || this.#refusal || this.#handles.length === 0) return false;
+  async finishBounded(onProgress: (part: number) => void): Promise<void> {
     const finishing = new AbortController();
     this.#finishing = finishing;
     try {
       const bounded = this.weights('bounded');
-      if (bounded.isFinished) return false;
       await bounded.finish({ signal: finishing.signal, onProgress });
     } catch (error) {
-      // Other handles came: that is a change, too.
-      if (finishing.signal.aborted) return true;
-      this.#refusal = { error };
-      throw error;
+      // Unless other handles came.
+      if (!finishing.signal.aborted) this.#refusal = { error };
+      return;
     } finally {
       this.#finishing = undefined;
     }
@@ -90,12 +87,11 @@ export class Deformer {
       this.#deformations.get(id)?.dispose();
       this.#deformations.delete(id);
     }
-    return true;
   }
 
-  /** Whether bounded weights are on their way. */
-  get isFinishing(): boolean {
-    return this.#finishing !== undefined;
+  /** Whether bounded weights can be finished: they are neither on their way nor refused. Throws what the solver throws. */
+  get isUnbounded(): boolean {
+    return !this.#finishing && !this.#refusal && this.#handles.length > 0 && !this.weights('bounded').isFinished;
   }
 
   weights(kind: WeightsKind): Weights {

@@ -1,13 +1,19 @@
-import { bar, gingerbreadMan, octopus, ring } from '../../models/outlines.ts';
-import type { Shape } from '../../models/shape.ts';
-import { bone, type Handle, point, type ShapeName } from './experiment.ts';
-import { type PaintedShape, paintBar, paintMan, paintOctopus, paintRing } from './icing.ts';
+import { bar, gingerbreadMan, octopus, ring } from '../../../models/outlines.ts';
+import type { Shape } from '../../../models/shape.ts';
+import { bone, type Handle, point } from '../../kit/plane-handles.ts';
+import type { PaintedShape } from '../../kit/shape-picture.ts';
+import { paintBar, paintMan, paintOctopus, paintRing } from './icing.ts';
 import type { MethodId } from './methods.ts';
+
+export type ShapeName = 'man' | 'bar' | 'ring' | 'octopus';
 
 /** Handles in a pose, to choose from. */
 interface Pose {
+  /** The first pose of a shape has the shape's. */
   readonly id: string;
   readonly name: string;
+  /** What to look at. */
+  readonly look?: string;
   readonly handles: () => Handle[];
   readonly method?: MethodId;
 }
@@ -17,9 +23,14 @@ interface KnownShape {
   readonly name: string;
   readonly outline: () => Shape;
   readonly paint: (shape: Shape) => PaintedShape;
-  /** The first is what the page opens with. */
+  /** What it is called in a choice. */
+  readonly short: string;
+  /** The first is what it opens with. */
   readonly poses: readonly Pose[];
 }
+
+const COLLAPSE =
+  'Under linear blending the shape collapses where the turn fades out; rotations that are blended as rotations, under Rigid, keep it.';
 
 /** Head, hands, feet and belly, moved by so much: dx, dy, turn of each. */
 const man = (...moves: readonly (readonly [number, number, number])[]): Handle[] =>
@@ -38,17 +49,20 @@ export const SHAPES: readonly KnownShape[] = [
   {
     id: 'man',
     name: 'Gingerbread man',
+    short: 'Man',
     outline: gingerbreadMan,
     paint: paintMan,
     poses: [
       {
-        id: 'wave',
+        id: 'man',
         name: 'Wave',
+        look: 'Drag a handle, turn it by its knob, and choose how the shape follows.',
         handles: () => man([0.05, 0.02, -8], [0.02, -0.14, 20], [-0.06, 0.48, 62], [0, 0, 0], [0.04, 0.02, 8]),
       },
       {
         id: 'wrist',
         name: 'Turn a wrist by 170°',
+        look: COLLAPSE,
         handles: () => man([0, 0, 0], [0, 0, 0], [0, 0, 170]),
         method: 'linear-bounded',
       },
@@ -63,37 +77,41 @@ export const SHAPES: readonly KnownShape[] = [
   {
     id: 'bar',
     name: 'Bar',
+    short: 'Bar',
     outline: bar,
     paint: paintBar,
     poses: [
       {
-        id: 'bend',
-        name: 'Bend',
+        id: 'bar',
+        name: 'Bend the bar',
         handles: () => [bone([-1, 0], [-0.35, 0], [0.05, 0.1], -25), bone([0.35, 0], [1, 0], [-0.08, 0], 42)],
       },
       {
-        id: 'turn',
-        name: 'Turn by 170°',
+        id: 'turn-bar',
+        name: 'Turn the bar by 170°',
+        look: COLLAPSE,
         handles: () => [bone([-1, 0], [-0.35, 0]), bone([0.35, 0], [1, 0], [0, 0], 170)],
         method: 'linear-bounded',
       },
-      { id: 'pull', name: 'Pull the middle', handles: () => [point(-1, 0), point(0, 0, 0, 0.4), point(1, 0)] },
+      { id: 'pull', name: 'Pull the bar’s middle', handles: () => [point(-1, 0), point(0, 0, 0, 0.4), point(1, 0)] },
     ],
   },
   {
     id: 'ring',
     name: 'Ring',
+    short: 'Ring',
     outline: ring,
     paint: paintRing,
     poses: [
       {
-        id: 'bite',
-        name: 'Pull',
+        id: 'ring',
+        name: 'Pull the ring',
         handles: () => [point(0, 0.73, 0.1, 0.14, -20), point(-0.73, 0), point(0.73, 0, -0.2, -0.05, 15), point(0, -0.73)],
       },
       {
-        id: 'turn',
-        name: 'Turn the top by 170°',
+        id: 'turn-ring',
+        name: 'Turn the ring’s top by 170°',
+        look: COLLAPSE,
         handles: () => [point(0, 0.73, 0, 0, 170), point(-0.73, 0), point(0.73, 0), point(0, -0.73)],
         method: 'linear-bounded',
       },
@@ -102,12 +120,13 @@ export const SHAPES: readonly KnownShape[] = [
   {
     id: 'octopus',
     name: 'Octopus',
+    short: 'Octopus',
     outline: octopus,
     paint: paintOctopus,
     poses: [
       {
-        id: 'swim',
-        name: 'Swim',
+        id: 'octopus',
+        name: 'Let the octopus swim',
         handles: () => [
           point(0, 0.4, 0.04, 0.06, -6),
           point(-0.97, 0.03, 0.06, 0.26, -30),
@@ -127,6 +146,6 @@ export const SHAPES: readonly KnownShape[] = [
   },
 ];
 
-export function shapeOf(id: string): KnownShape | undefined {
-  return SHAPES.find((shape) => shape.id === id);
+export function shapeOf(id: ShapeName): KnownShape {
+  return SHAPES.find((shape) => shape.id === id) as KnownShape;
 }

@@ -1,10 +1,10 @@
-import type { HandlebodyRuntime, Handle as SolverHandle } from '../../../wasm/ts/runtime.ts';
-import type { PlaneMesh } from '../../models/mesh-shape.ts';
-import { extentOf } from '../../models/shape.ts';
-import { slab } from '../../models/slab.ts';
-import { bakeInWorker } from '../../worker/bake-in-worker.ts';
+import type { HandlebodyRuntime, Handle as SolverHandle } from '../../../../wasm/ts/runtime.ts';
+import type { PlaneMesh } from '../../../models/mesh-shape.ts';
+import { extentOf } from '../../../models/shape.ts';
+import { slab } from '../../../models/slab.ts';
+import { bakeInWorker } from '../../../worker/bake-in-worker.ts';
+import { endOf, type Handle, type Place, placeOf } from '../../kit/plane-handles.ts';
 import type { SlabDeformation } from './deformer.ts';
-import { endOf, type Handle, type Place, placeOf } from './experiment.ts';
 import type { DistanceKind } from './methods.ts';
 
 /** The slab's thickness, as a part of the shape's longer side: a few voxels. */
