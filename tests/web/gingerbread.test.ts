@@ -34,7 +34,7 @@ describe.each([
     const { page, said } = await bend(browser, '#shape=bar&show=weight,mesh&pick=1', look);
     await finished(page);
     expect(await violations(page)).toEqual([]);
-    for (const more of await page.locator('.asides summary').all()) await more.click();
+    for (const more of await page.locator('.controls summary').all()) await more.click();
     expect(await violations(page)).toEqual([]);
     expect(await cramped(page)).toEqual([]);
     await choiceOf(page, 'own').check();
@@ -328,10 +328,10 @@ describe('the focus', () => {
     await chosen(page, 'Shape').focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
-    expect(await page.locator('.own').isVisible()).toBe(true);
+    await page.waitForSelector('.own:visible');
     expect(await focused(page)).toBe('Your own');
     await page.keyboard.press('Escape');
-    expect(await page.locator('.own').isVisible()).toBe(false);
+    await page.waitForSelector('.own', { state: 'hidden' });
     expect(await chosen(page, 'Shape').inputValue()).toBe('octopus');
     await choiceOf(page, 'own').check();
     await page.getByRole('button', { name: 'Cancel' }).press('Enter');
@@ -341,10 +341,10 @@ describe('the focus', () => {
 
 describe('links', () => {
   it.each([
-    ['crosses itself', '0,0,1000,1000,1000,0,0,1000', /cross or touch\. Check/],
+    ['crosses itself', '0,0,1000,1000,1000,0,0,1000', /cross or touch\. Move/],
     ['is cut short', '0,0,1000,0', /encloses nothing/],
     ['is no size at all', '0,0,1e-300,0,0,1e-300', /encloses no area/],
-    ['is larger than anything', '0,0,1e300,0,0,1e300', /^Of the link this could not be read/],
+    ['is larger than anything', '0,0,1e300,0,0,1e300', /^Left out of this link/],
   ])('with an outline that %s: the man stands in, and everything works', async (_, outline, told) => {
     // A page of its own: where something is shown already, that stays.
     const { page, said } = await bend(browser, `#shape=own&o=${outline}&m=rigid-harmonic&show=mesh`, { locale: 'en' });
@@ -362,7 +362,7 @@ describe('links', () => {
 
   it('that are partly wrong open as far as they are right, by hand too', async () => {
     const { page, said } = await bend(browser, '#shape=bar&foo=1&m=none&h=q:1~p:0,0');
-    expect(await words(page)).toMatch(/^Of the link this could not be read and was left out: “foo=1”, “m=none”, “q:1”\.$/);
+    expect(await words(page)).toMatch(/^Left out of this link, because this page cannot show it: “foo=1”, “m=none”, “q:1”\. The rest/);
     expect(await page.locator('.point.start').count()).toBe(1);
     await page.evaluate(() => {
       location.hash = '#octopus';

@@ -18,7 +18,7 @@ export {
   type GridMatrix,
 } from './discrete-green.ts';
 export type { Handlebody } from './handlebody.ts';
-export { WEIGHT_REQUIREMENTS, type WeightMeasures } from './measure-weights.ts';
+export type { WeightMeasures } from './measure-weights.ts';
 export {
   type DeformationEnergy,
   EnergyMinimizer,
@@ -31,3 +31,4 @@ export type { SimplexMesh } from './simplex-mesh.ts';
 export type { SteppedOptions } from './stepped.ts';
 export { TETRAHEDRALIZE_DEFAULTS, Tetrahedra, type TetrahedralizeOptions } from './tetrahedralize.ts';
 export type { WeightHandle } from './weight-handles.ts';
+export { WEIGHT_REQUIREMENTS } from './weight-requirements.ts';

@@ -3,6 +3,7 @@ import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
+import { WEIGHT_REQUIREMENTS } from './weight-requirements.ts';
 
 /**
  * How well skinning weights do what the lecture asks of them ("Requirements on weights"), as the worst number over the mesh. Distances inside
@@ -28,9 +29,6 @@ export interface WeightMeasures {
   /** Which requirements hold, by WEIGHT_REQUIREMENTS. */
   readonly holds: Readonly<Record<keyof typeof WEIGHT_REQUIREMENTS, boolean>>;
 }
-
-/** The largest numbers at which a requirement is said to hold; `bounded` is how far weights may leave [0, 1]. */
-export const WEIGHT_REQUIREMENTS = { smooth: 0.5, local: 0.35, shapeAware: 0.25, sumsToOne: 1e-6, bounded: 1e-6 } as const;
 
 /** @internal Use `Handlebody.measureWeights`. */
 export function measureWeights(

@@ -2,27 +2,6 @@ import { PageError } from './page-error.ts';
 
 /** What pages read from what stands behind "#" in their address, and write there. */
 
-/** As it was written, where it can be decoded. */
-export function decoded(hash: string): string {
-  const text = hash.replace(/^#/, '');
-  try {
-    return decodeURIComponent(text);
-  } catch {
-    return text;
-  }
-}
-
-/** "a=1&b=2" by its keys; what is no pair, or has none of these keys, goes to `left`. */
-export function pairsOf(text: string, keys: readonly string[], left: string[]): Map<string, string> {
-  const pairs = new Map<string, string>();
-  for (const part of text.split('&')) {
-    const key = /^([^=]+)=/.exec(part)?.[1] ?? '';
-    if (keys.includes(key)) pairs.set(key, part.slice(key.length + 1));
-    else if (part !== '') left.push(quoted(part));
-  }
-  return pairs;
-}
-
 /** Larger numbers overflow as soon as something is computed with them, and what is smaller than their inverse loses its digits. */
 const LARGEST = 1e300;
 

@@ -4,6 +4,8 @@ import type { Mend, Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
 export interface Work<M = unknown> {
+  /** As the page's address says the state: for parts of the program that are fetched when they are needed. */
+  readonly address: string;
   /** Aborted when the work is cancelled or something else was asked for. */
   readonly signal: AbortSignal;
   /** The part done, 0 to 1; nothing where nobody knows. */

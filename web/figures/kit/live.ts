@@ -543,6 +543,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #worker(signal: AbortSignal): Work<M> {
     return {
+      address: this.#kit.address,
       signal,
       progress: (part, label) => {
         if (!signal.aborted) this.#progress.set(part, label);

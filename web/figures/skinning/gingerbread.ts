@@ -74,7 +74,7 @@ const parts: readonly PartControl<State>[] = [
 async function withSlab(hb: Handlebody, bent: Bent, kind: DistanceKind, work: Work, before?: Bent): Promise<Bent> {
   work.progress(0, kind === 'interior' ? 'Measuring distances through the inside…' : 'Measuring distances…');
   try {
-    const { bakeSlab } = await slabPart();
+    const { bakeSlab } = await slabPart(work.address);
     const listener = { signal: work.signal, onProgress: work.progress, onFallback: work.alone };
     bent.start(hb).setSlab(kind, await bakeSlab(hb, bent.mesh, kind, listener));
     return bent;

@@ -125,7 +125,7 @@ class OwnShape implements OpenPanel<Bent, State> {
     this.#opened = file;
     if (!file) return;
     this.#kit.wait('Tracing the picture…', async () => {
-      const { openPicture } = await picturePart();
+      const { openPicture } = await picturePart(this.#kit.address);
       const { outline, painting } = await openPicture(file);
       // Unless another one was opened meanwhile.
       if (this.#opened === file) this.#show(outline, painting);

@@ -1,10 +1,5 @@
-import {
-  type DualQuaternion,
-  type Handlebody,
-  type LinearBlend,
-  WEIGHT_REQUIREMENTS,
-  type WeightHandle,
-} from '../../../../wasm/ts/index.ts';
+import type { DualQuaternion, Handlebody, LinearBlend, WeightHandle } from '../../../../wasm/ts/index.ts';
+import { WEIGHT_REQUIREMENTS } from '../../../../wasm/ts/weight-requirements.ts';
 import type { PlaneMesh } from '../../../models/mesh-shape.ts';
 import type { Handle } from '../../kit/plane-handles.ts';
 import type { EnergyKind, WeightsKind } from './methods.ts';
