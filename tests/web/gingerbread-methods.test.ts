@@ -60,11 +60,10 @@ describe('methods', () => {
     await page.getByRole('button', { name: 'Turn a wrist by 170°' }).click();
     await rested(page);
     const flips = async () => Number(await fact(page, 'triangles turned over'));
-    const [linear, before] = [await flips(), await picture(page)];
+    const linear = await flips();
     await choiceOf(page, 'rigid').check();
     await rested(page);
     expect(linear).toBeGreaterThan(5 * (await flips()));
-    expect(difference(before, await picture(page))).toBeGreaterThan(3000);
   });
 
   it('interior radial basis functions are prepared on demand, on both distances', async () => {

@@ -362,7 +362,9 @@ describe('links', () => {
 
   it('that are partly wrong open as far as they are right, by hand too', async () => {
     const { page, said } = await bend(browser, '#shape=bar&foo=1&m=none&h=q:1~p:0,0');
-    expect(await words(page)).toMatch(/^Left out of this link, because this page cannot show it: “foo=1”, “m=none”, “q:1”\. The rest/);
+    expect(await words(page)).toMatch(
+      /^Left out of this link, because this page cannot show it: “foo=1”, “m=none”, “q:1”\. The rest/,
+    );
     expect(await page.locator('.point.start').count()).toBe(1);
     await page.evaluate(() => {
       location.hash = '#octopus';
