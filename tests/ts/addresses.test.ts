@@ -170,7 +170,7 @@ describe('what an address says too much', () => {
       '“q:1”',
       '“v=9”',
     ]);
-    expect(told(solid.fromAddress, '#solid=cat&blend=rigid&x')).toEqual(['“x”', '“solid=cat”']);
+    expect(told(solid.fromAddress, '#solid=cat&blend=rigid&x')).toEqual(['“solid=cat”', '“x”']);
     expect(solid.fromAddress('#solid=cat&blend=rigid').state).toMatchObject({ solid: 'bar', method: 'biharmonic', blend: 'rigid' });
     expect(solid.fromAddress('#solid=dog&m=bounded').state).toMatchObject({ solid: 'dog', method: 'bounded', handle: 0 });
   });

@@ -54,7 +54,7 @@ describe('a figure’s state as a line of text', () => {
   it('opens as far as it is right, and says what was left out', () => {
     const read = fromText(channels, presets, 'v1&from=fig-10&power=much&kernel=cubic&colour=red&toString=1&x');
     expect(read.state).toMatchObject({ power: 1, kernel: 'cubic' });
-    expect(read.left).toEqual(['“colour=red”', '“toString=1”', '“x”', '“power=much”']);
+    expect(read.left).toEqual(['“power=much”', '“colour=red”', '“toString=1”', '“x”']);
     expect(fromText(channels, presets, 'power=1e300&width=-4').state).toMatchObject({ power: 8, width: 0 });
   });
 

@@ -65,9 +65,11 @@ export function fromText<C extends Channels>(
   const version = Number(/^v(\d+)$/.exec(parts[0] ?? '')?.[1] ?? Number.NaN);
   if (!Number.isNaN(version)) parts.shift();
   let preset: Preset<C> | undefined;
-  const left: string[] = [];
-  const given = new Map<string, (readonly [part: string, text: string])[]>();
-  for (const part of parts) {
+  /** Of each part. */
+  const left = parts.map((): string[] => []);
+  const given = new Map<string, (readonly [part: string, text: string, left: string[]])[]>();
+  for (const [i, part] of parts.entries()) {
+    const lost = left[i] as string[];
     const at = part.indexOf('=');
     const [name, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
     const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
@@ -75,8 +77,8 @@ export function fromText<C extends Channels>(
     // No preset, perhaps a channel of that name.
     const channel = key === 'from' ? name : key;
     if (named) preset = named;
-    else if (Object.hasOwn(channels, channel)) given.set(channel, [...(given.get(channel) ?? []), [part, plain(value)]]);
-    else left.push(quoted(plain(part)));
+    else if (Object.hasOwn(channels, channel)) given.set(channel, [...(given.get(channel) ?? []), [part, plain(value), lost]]);
+    else lost.push(quoted(plain(part)));
   }
   const said = new Set(preset ? ['from'] : []);
   preset ??= first;
@@ -84,14 +86,14 @@ export function fromText<C extends Channels>(
   const newer = version > VERSION;
   if (newer) return { preset, state: state as StateOf<C>, left: [], newer };
   for (const [key, channel] of Object.entries(channels)) {
-    for (const [part, value] of given.get(key) ?? []) {
-      const read = channel.read(value, left, state);
-      if (read === undefined) left.push(quoted(plain(part)));
+    for (const [part, value, lost] of given.get(key) ?? []) {
+      const read = channel.read(value, lost, state);
+      if (read === undefined) lost.push(quoted(plain(part)));
       else state[key] = read;
       if (read !== undefined) said.add(key);
     }
   }
-  return { preset, state: mend(state as StateOf<C>, said), left, newer };
+  return { preset, state: mend(state as StateOf<C>, said), left: left.flat(), newer };
 }
 
 /** Without what separates the parts, and what ends an address. */
