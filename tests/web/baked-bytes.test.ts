@@ -5,6 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
 import { expect, inject, it, onTestFinished } from 'vitest';
 import { readBody, readGlb } from '../../web/assets/index.ts';
+import { arrival } from './support/arrival.ts';
 import { bakeGlb } from './support/bake-glb.ts';
 import { launch, settled } from './support/studio.ts';
 
@@ -58,10 +59,10 @@ it('asks for the codec only when there is a body to read', async () => {
   page.on('request', (request) => asked.push(request.url()));
   const codecs = () => asked.filter((url) => url.includes('meshopt')).length;
   await page.goto(`${inject('site')}studio/#face`);
-  await page.waitForSelector('#studio[data-state=ready]');
+  await arrival(page, '#studio[data-state=ready]');
   await settled(page);
   expect(codecs()).toBe(0);
   await page.getByRole('radio', { name: 'Spot' }).check();
-  await page.waitForSelector('#studio[data-model=spot]');
+  await arrival(page, '#studio[data-model=spot]');
   expect(codecs()).toBe(1);
 });

@@ -3,7 +3,7 @@ import type { Browser, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { FIGURES } from '../../web/figures/list.ts';
-import { goRound, growth, INTERPRETED } from '../bench/figures/rounds.mjs';
+import { arrival } from './support/arrival.ts';
 import { openFigure, settled, told, toldNumber } from './support/figure.ts';
 import { listen } from './support/listen.ts';
 import { cramped, violations } from './support/manners.ts';
@@ -28,7 +28,7 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
       sizes[size] = page;
       const said = listen(page);
       await page.goto(`${inject('site')}learn/figures/#${id}`, { waitUntil: 'commit' });
-      await page.waitForSelector(`[data-figure="${id}"][data-state=ready][data-rest=yes]`, { timeout: 60_000 });
+      await arrival(page, `[data-figure="${id}"][data-state=ready][data-rest=yes]`);
       for (const colorScheme of ['light', 'dark'] as const) {
         await page.emulateMedia({ colorScheme });
         expect(await violations(page)).toEqual([]);
@@ -64,15 +64,6 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
     await openFigure(browser, `${id}&v99&power=3`);
     expect(await page.locator('.notice').textContent()).toMatch(/newer version/);
   });
-});
-
-it('twelve rounds through all figures leave nothing behind', async () => {
-  const own = await launch(INTERPRETED);
-  onTestFinished(() => own.close());
-  const page = await own.newPage({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
-  const { heap, ...grown } = growth(await goRound(page, `${inject('site')}learn/figures/`, 12));
-  expect(grown).toEqual({ nodes: 0, listeners: 0, solver: 0 });
-  expect(heap).toBeLessThan(0.02);
 });
 
 it('a picture is saved as SVG and as PNG, as it looks', async () => {

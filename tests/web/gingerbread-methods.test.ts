@@ -1,6 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import { arrival } from './support/arrival.ts';
 import {
   bend,
   choiceOf,
@@ -185,7 +186,7 @@ describe('shapes of one’s own', () => {
     expect(hash).toMatch(/^#v1&from=man&o=/);
     const before = await picture(page);
     await page.reload();
-    await page.waitForSelector('.figure[data-state=ready]');
+    await arrival(page, '.figure[data-state=ready]');
     await rested(page);
     expect(difference(before, await picture(page))).toBeLessThan(50);
     expect(said).toEqual([]);
@@ -382,7 +383,7 @@ describe('what does not come', () => {
     expect(covered(await picture(page))).toBeGreaterThan(8000);
     await page.unrouteAll();
     await retry(page).click();
-    await page.waitForSelector('.figure[data-state=ready]');
+    await arrival(page, '.figure[data-state=ready]');
     await rested(page);
     expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
   });

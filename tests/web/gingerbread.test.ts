@@ -1,6 +1,7 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { METHODS } from '../../web/figures/skinning/gingerbread/methods.ts';
+import { arrival } from './support/arrival.ts';
 import {
   bend,
   choiceOf,
@@ -79,12 +80,12 @@ describe('shapes', () => {
       await route.continue();
     });
     await page.goto(address);
-    await page.waitForSelector('.figure[data-drawn]');
+    await arrival(page, '.figure[data-drawn]');
     await frames(page, 3);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
     expect(await page.locator('.figure').getAttribute('data-state')).toBe('loading');
     release();
-    await page.waitForSelector('.figure[data-state=ready]');
+    await arrival(page, '.figure[data-state=ready]');
     await context.close();
   });
 
@@ -97,7 +98,7 @@ describe('shapes', () => {
     await rested(page);
     expect(await page.evaluate(() => location.hash)).toBe('#v1&from=ring&m=linear-harmonic');
     await page.reload();
-    await page.waitForSelector('.figure[data-state=ready]');
+    await arrival(page, '.figure[data-state=ready]');
     expect(await page.locator('.figure-title').textContent()).toBe('Ring');
     expect(await page.getByRole('radio', { name: /^Harmonic/ }).isChecked()).toBe(true);
     await page.goBack();

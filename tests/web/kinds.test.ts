@@ -6,6 +6,7 @@ import { PNG } from 'pngjs';
 import { createServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { FIGURES } from '../../web/figures/list.ts';
+import { arrival } from './support/arrival.ts';
 import { listen } from './support/listen.ts';
 import { cramped } from './support/manners.ts';
 import { fingers, frames, launch, PHONE, soon } from './support/studio.ts';
@@ -140,7 +141,7 @@ async function open({ address, ready }: Kinds): Promise<{ page: Page; said: stri
   const said = listen(page);
   await page.addInitScript(losable);
   await page.goto(inject('site') + address, { waitUntil: 'commit', timeout: 60_000 });
-  await page.waitForSelector(ready, { timeout: 60_000 });
+  await arrival(page, ready);
   await frames(page, 6);
   return { page, said };
 }
@@ -243,7 +244,7 @@ describe.each([...PAGES, ...FIGURE_ROWS].map((row) => [row.address || 'the front
       ({ page, said } = figuresPage);
       said.length = 0;
       await page.goto(inject('site') + row.address, { waitUntil: 'commit' });
-      await page.waitForSelector(row.ready, { timeout: 60_000 });
+      await arrival(page, row.ready);
     } else ({ page, said } = await open(row));
     if (!figure) return;
     figuresPage = { page, said };
@@ -405,7 +406,7 @@ it.each([
   const page = await browser.newPage({ ...PHONE, reducedMotion: 'reduce' });
   onTestFinished(() => page.close());
   await page.goto(inject('site') + address, { waitUntil: 'commit', timeout: 60_000 });
-  await page.waitForSelector(ready, { timeout: 60_000 });
+  await arrival(page, ready);
   // Where no handle is.
   const [x, y] = await page
     .locator(plot)
@@ -437,7 +438,7 @@ it('surfaces say that the graphics card was interrupted, keep the last picture, 
   const kinds = { ...(PAGES[3] as Kinds), address: 'learn/interpolation/#from=plane&show=surface' };
   const { page } = await open(kinds);
   onTestFinished(() => page.close());
-  await page.waitForSelector('[data-surface]');
+  await arrival(page, '[data-surface]');
   await frames(page, 6);
   await interrupt(page, kinds);
 });

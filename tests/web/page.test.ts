@@ -1,5 +1,6 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it } from 'vitest';
+import { arrival } from './support/arrival.ts';
 import { ball, glb, poseGlb } from './support/files.ts';
 import { cramped, violations } from './support/manners.ts';
 import {
@@ -71,14 +72,14 @@ describe('models', () => {
     const asked: string[] = [];
     page.on('request', (request) => asked.push(request.url()));
     await page.getByRole('radio', { name: 'Spot' }).check();
-    await page.waitForSelector('#studio[data-model=spot]');
+    await arrival(page, '#studio[data-model=spot]');
     expect(new URL(page.url()).hash).toBe('#spot');
     expect(asked.filter((url) => url.endsWith('.glb')).map((url) => url.split('/').at(-1))).toEqual(['spot.glb']);
     await settled(page);
     await page.goto(`${inject('site')}studio/#face`);
-    await page.waitForSelector('#studio[data-model=face]');
+    await arrival(page, '#studio[data-model=face]');
     await page.goBack();
-    await page.waitForSelector('#studio[data-model=spot]');
+    await arrival(page, '#studio[data-model=spot]');
     expect(said).toEqual([]);
   });
 
@@ -92,7 +93,7 @@ describe('models', () => {
       if (response.url().endsWith('.js')) scripts.push(response.text());
     });
     await page.goto(`${inject('site')}studio/`);
-    await page.waitForSelector('#studio[data-state=ready]');
+    await arrival(page, '#studio[data-state=ready]');
     await settled(page);
     expect(asked.filter((url) => /\.glb$|worker|pose-scene/.test(url)).map((url) => url.split('/').at(-1))).toEqual(['dog.glb']);
     const code = (await Promise.all(scripts)).join('');
@@ -105,7 +106,7 @@ describe('models', () => {
     const { page, said } = await visit(browser);
     const { positions, indices } = ball();
     await openFile(page, 'egg.glb', glb({ positions, indices }));
-    await page.waitForSelector('#studio[data-model=own]', { timeout: 60_000 });
+    await arrival(page, '#studio[data-model=own]');
     await settled(page);
     expect(await page.getByRole('radio', { name: 'egg' }).isChecked()).toBe(true);
     expect(await page.locator('.handle').count()).toBe(6);
@@ -136,16 +137,16 @@ describe('models', () => {
       { name: 'tall', at: [-0.5, 0.6], weights: [0, 1] },
     ];
     await openFile(page, 'mood.glb', poseGlb(examples));
-    await page.waitForSelector('#studio[data-kind=pose]');
+    await arrival(page, '#studio[data-kind=pose]');
     expect(await page.locator('.handle').count()).toBe(0);
     const before = await picture(page);
     await page.getByRole('button', { name: /^wide/ }).click();
     await soon(async () => difference(before, await picture(page))).toBeGreaterThan(1000);
     await page.getByRole('radio', { name: 'Dog' }).check();
-    await page.waitForSelector('#studio[data-model=dog]');
+    await arrival(page, '#studio[data-model=dog]');
     expect(await page.locator('.handle').count()).toBe(6);
     await page.getByRole('radio', { name: 'mood' }).check();
-    await page.waitForSelector('#studio[data-kind=pose]');
+    await arrival(page, '#studio[data-kind=pose]');
     expect(said).toEqual([]);
   });
 
@@ -262,7 +263,7 @@ describe('without what it needs', () => {
     await page.goto(`${inject('site')}studio/`);
     expect(await page.getByRole('alert').locator('.sentence').textContent()).toMatch(/fetched/);
     await page.getByRole('radio', { name: 'Spot' }).check();
-    await page.waitForSelector('#studio[data-model=spot]');
+    await arrival(page, '#studio[data-model=spot]');
     await context.close();
   });
 });
@@ -272,6 +273,6 @@ it('the front page leads to the studio', async () => {
   await page.goto(inject('site'));
   expect(await violations(page)).toEqual([]);
   await page.getByRole('link', { name: /Drag a body/ }).click();
-  await page.waitForSelector('#studio[data-state=ready]');
+  await arrival(page, '#studio[data-state=ready]');
   await page.close();
 });

@@ -1,6 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, inject, it, onTestFinished } from 'vitest';
 import { PRESETS } from '../../web/figures/course/playground/presets.ts';
+import { arrival } from './support/arrival.ts';
 import { embedded } from './support/embedded.ts';
 import { settled as rested } from './support/figure.ts';
 import { cramped, focused, violations } from './support/manners.ts';
@@ -527,7 +528,7 @@ describe('manners', () => {
       Reflect.deleteProperty(globalThis, 'WebAssembly');
     });
     await page.goto(`${inject('site')}learn/interpolation/`);
-    await page.waitForSelector('[data-figure=playground][data-state=failed]');
+    await arrival(page, '[data-figure=playground][data-state=failed]');
     expect(await page.getByRole('alert').locator('span').textContent()).toMatch(/WebAssembly.*\.$/);
     expect(await violations(page)).toEqual([]);
     await page.close();
@@ -537,7 +538,7 @@ describe('manners', () => {
     const page = await browser.newPage();
     await page.goto(inject('site'));
     await page.getByRole('link', { name: /Compare interpolants/ }).click();
-    await page.waitForSelector('[data-figure=playground][data-state=ready]');
+    await arrival(page, '[data-figure=playground][data-state=ready]');
     await page.close();
   });
 });
@@ -657,7 +658,7 @@ describe('a copied link', () => {
   it('is our own in the frame of another site, which shows its own address', async () => {
     const address = `${inject('site')}learn/interpolation/#v1&fig-9`;
     const frame = await embedded(browser, address);
-    await frame.waitForSelector('[data-figure=playground][data-rest=yes]', { timeout: 60_000 });
+    await arrival(frame, '[data-figure=playground][data-rest=yes]');
     await frame.locator('#copy').click();
     const field = frame.getByRole('textbox', { name: /^Link/ });
     await field.waitFor();

@@ -32,8 +32,12 @@ export async function goRound(page, address, rounds, onRound) {
       await page.evaluate((hash) => {
         location.hash = hash;
       }, id);
-      // A locator, not a selector, which would keep what it found.
-      await page.locator(`[data-figure="${id}"][data-state=ready][data-rest=yes]`).waitFor({ timeout: 60_000 });
+      // Asked in each frame: a locator asks twice a second, and a selector keeps what it found.
+      await page.waitForFunction(
+        (found) => document.querySelector(found) !== null,
+        `[data-figure="${id}"][data-state=ready][data-rest=yes]`,
+        { timeout: 60_000 },
+      );
     }
     held.push(await count(page, cdp));
     onRound?.(round, /** @type {Held} */ (held.at(-1)));
@@ -44,15 +48,19 @@ export async function goRound(page, address, rounds, onRound) {
 
 /** @param {import('playwright-core').Page} page @param {import('playwright-core').CDPSession} cdp @returns {Promise<Held>} */
 async function count(page, cdp) {
-  // What waits for a collection to be told of (workers, observers) is told after it, and may free more.
-  for (let i = 0; i < 3; i++) {
-    await cdp.send('HeapProfiler.collectGarbage');
-    await page.waitForTimeout(50);
-  }
-  const { metrics } = await cdp.send('Performance.getMetrics');
+  let [nodes, before] = [0, -1];
+  /** @type {{ name: string, value: number }[]} */
+  let metrics = [];
   const of = (/** @type {string} */ name) => metrics.find((metric) => metric.name === name)?.value ?? Number.NaN;
+  // Some panels go on at rest, and what waits for a collection to be told of (workers, observers) is told after it, and may free more.
+  for (let i = 0; i < 20 && (i < 3 || nodes !== before); i++) {
+    await cdp.send('HeapProfiler.collectGarbage');
+    await page.waitForTimeout(100);
+    ({ metrics } = await cdp.send('Performance.getMetrics'));
+    [before, nodes] = [nodes, of('Nodes')];
+  }
   const solver = await page.evaluate(() => /** @type {any} */ (document.querySelector('.figure'))?.figure.memory ?? Number.NaN);
-  return { nodes: of('Nodes'), listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize'), solver };
+  return { nodes, listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize'), solver };
 }
 
 /** The largest change of each count from the tenth round on, over what it was then. @param {Held[]} held @returns {Held} */

@@ -1,5 +1,6 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
+import { arrival } from './arrival.ts';
 import { listen } from './listen.ts';
 import { type Opened, sharedPage } from './shared-page.ts';
 import { frames } from './studio.ts';
@@ -26,7 +27,7 @@ export async function openFigure(browser: Browser, hash: string, options: Unusua
     ? await sharedPage(browser, address, () => browser.newPage(ORDINARY))
     : await fresh(browser, address, { before, missing, ...look });
   const figure = lesson === 'figures' ? `[data-figure="${hash.split('&')[0]}"]` : '.figure';
-  await opened.page.waitForSelector(`${figure}[data-state=${state}]`, { timeout: 60_000 });
+  await arrival(opened.page, `${figure}[data-state=${state}]`);
   await settled(opened.page);
   return opened;
 }
@@ -48,7 +49,7 @@ async function fresh(
 
 /** Waits until the figure has told its state: nothing has moved for a while. */
 export async function settled(page: Page): Promise<void> {
-  await page.waitForSelector('.figure[data-rest=yes]', { timeout: 30_000 });
+  await arrival(page, '.figure[data-rest=yes]');
   await frames(page, 2);
 }
 

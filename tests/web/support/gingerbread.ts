@@ -1,6 +1,7 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { inject, onTestFinished } from 'vitest';
+import { arrival } from './arrival.ts';
 import { listen } from './listen.ts';
 import { type Opened, sharedPage } from './shared-page.ts';
 import { frames } from './studio.ts';
@@ -16,7 +17,7 @@ export async function bend(
   const address = `${inject('site')}learn/gingerbread/${hash}`;
   if (!before && state === 'ready' && Object.keys(options).length === 0) {
     const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
-    await opened.page.waitForSelector('[data-figure=gingerbread][data-state=ready]', { timeout: 60_000 });
+    await arrival(opened.page, '[data-figure=gingerbread][data-state=ready]');
     await rested(opened.page);
     return opened;
   }
@@ -27,7 +28,7 @@ export async function bend(
   if (before) await page.addInitScript(before);
   // What the page says of itself is waited for: a loaded machine is slow to load.
   await page.goto(address, { waitUntil: 'commit', timeout: 60_000 });
-  await page.waitForSelector(`[data-figure=gingerbread][data-state=${state}]`, { timeout: 60_000 });
+  await arrival(page, `[data-figure=gingerbread][data-state=${state}]`);
   if (state === 'ready') await rested(page);
   return { page, said };
 }

@@ -1,5 +1,6 @@
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
+import { arrival } from './arrival.ts';
 import { settled } from './figure.ts';
 import { listen } from './listen.ts';
 import { type Opened, sharedPage } from './shared-page.ts';
@@ -15,7 +16,7 @@ export async function play(
   const address = `${inject('site')}learn/interpolation/${hash}`;
   if (!before && Object.keys(options).length === 0) {
     const opened = await sharedPage(browser, address, () => browser.newPage(ORDINARY));
-    await opened.page.waitForSelector('.figure[data-state=ready]', { timeout: 60_000 });
+    await arrival(opened.page, '.figure[data-state=ready]');
     await settled(opened.page);
     return opened;
   }
@@ -25,7 +26,7 @@ export async function play(
   const said = listen(page);
   if (before) await page.addInitScript(before);
   await page.goto(address);
-  await page.waitForSelector('.figure[data-state=ready]', { timeout: 60_000 });
+  await arrival(page, '.figure[data-state=ready]');
   await settled(page);
   return { page, said };
 }

@@ -2,6 +2,7 @@ import { type Browser, type BrowserContextOptions, chromium, type Page } from 'p
 import { PNG } from 'pngjs';
 import { expect, inject, onTestFinished } from 'vitest';
 import { CHROMIUM_ARGS, findChromium } from '../../../scripts/chromium.mjs';
+import { arrival } from './arrival.ts';
 import { listen } from './listen.ts';
 
 export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } as const;
@@ -31,7 +32,7 @@ export async function visit(
   const said = listen(page);
   if (before) await page.addInitScript(before);
   await page.goto(`${inject('site')}studio/${hash}`);
-  await page.waitForSelector(`#studio[data-state=${state}]`, { timeout: 60_000 });
+  await arrival(page, `#studio[data-state=${state}]`);
   if (state === 'ready') await settled(page);
   return { page, said };
 }

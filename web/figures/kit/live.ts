@@ -17,6 +17,8 @@ import { brief } from './words.ts';
 
 /** Milliseconds without a change after which a figure is at rest: it tells its state, speaks, and draws finely. */
 const REST = 350;
+/** And until it is asked again where something is still on its way then. */
+const LATE = 50;
 /** Milliseconds of work that nobody needs to hear of. */
 const PATIENCE = 400;
 
@@ -580,13 +582,13 @@ export class Live<C extends Channels, M extends Disposable> {
     });
   }
 
-  #restSoon(): void {
+  #restSoon(after = REST): void {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       // A slow machine has not drawn yet what is to be at rest.
-      if (this.#frame !== 0 || this.#work || this.#waits > 0 || !this.#hb) return this.#restSoon();
+      if (this.#frame !== 0 || this.#work || this.#waits > 0 || !this.#hb) return this.#restSoon(LATE);
       this.#rest();
-    }, REST);
+    }, after);
   }
 
   #rest(): void {
