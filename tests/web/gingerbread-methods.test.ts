@@ -123,7 +123,7 @@ describe('methods', () => {
   });
 
   it('the weight of the picked handle is shown in colors, and triangles when asked', async () => {
-    const { page } = await bend(browser, '#man');
+    const { page } = await bend(browser, '#shape=man&v=600');
     const plain = await picture(page);
     await page.getByLabel('Weight of the picked handle').check();
     await rested(page);
@@ -142,7 +142,7 @@ describe('methods', () => {
   });
 
   it('the table marks what a method breaks', async () => {
-    const { page } = await bend(browser, '#man');
+    const { page } = await bend(browser, '#shape=man&v=600');
     await finished(page);
     const cells = await page
       .locator('.requirements tbody tr')
@@ -168,7 +168,7 @@ describe('methods', () => {
 
 describe('shapes of one’s own', () => {
   it('are drawn in one stroke', async () => {
-    const { page, said } = await bend(browser, '#man');
+    const { page, said } = await bend(browser, '#shape=man&v=600');
     await choiceOf(page, 'own').check();
     const sheet = await page.locator('.sheet').boundingBox();
     if (!sheet) throw new Error('there is nothing to draw on');
@@ -193,7 +193,7 @@ describe('shapes of one’s own', () => {
   });
 
   it('are typed, with holes; what crosses itself is told with both edges, and the picture stays', async () => {
-    const { page } = await bend(browser, '#bar');
+    const { page } = await bend(browser, '#shape=bar&v=600');
     const before = await picture(page);
     await choiceOf(page, 'own').check();
     await page.locator('.own summary').click();
@@ -220,7 +220,7 @@ describe('shapes of one’s own', () => {
   });
 
   it('are pasted, with ten thousand points', async () => {
-    const { page, said } = await bend(browser, '#bar');
+    const { page, said } = await bend(browser, '#shape=bar&v=600');
     await choiceOf(page, 'own').check();
     await page.locator('.own summary').click();
     const angles = Array.from({ length: 10_000 }, (_, i) => (2 * Math.PI * i) / 10_000);
@@ -261,7 +261,7 @@ describe('shapes of one’s own', () => {
   });
 
   it('come from an SVG, whose scripts never run and which fetches nothing', async () => {
-    const { page, said } = await bend(browser, '#man');
+    const { page, said } = await bend(browser, '#shape=man&v=600');
     const asked: string[] = [];
     page.on('request', (request) => asked.push(request.url()));
     const evil =
@@ -283,7 +283,7 @@ describe('shapes of one’s own', () => {
     ['a file that is no picture', Buffer.from('PNG? no.'), 'image/png', /“a file” is no picture that this browser can show/],
     ['half a PNG', pngOf(20, 20, () => [200, 0, 0, 255]).subarray(0, 40), 'image/png', /is no picture/],
   ])('%s is told in a sentence, the picture stays', async (_, buffer, type, sentence) => {
-    const { page } = await bend(browser, '#ring');
+    const { page } = await bend(browser, '#shape=ring&v=600');
     const before = await picture(page);
     await open(page, 'a file', buffer, type);
     await soon(() => trouble(page)).toMatch(sentence);
@@ -326,7 +326,7 @@ describe('manners', () => {
   });
 
   it('a lost context comes back by itself', async () => {
-    const { page } = await bend(browser, '#man', { before: losable });
+    const { page } = await bend(browser, '#shape=man&v=600', { before: losable });
     const before = await picture(page);
     await loseContext(page);
     await soon(async () => difference(before, await picture(page))).toBeLessThan(200);
@@ -410,7 +410,7 @@ describe('what does not come', () => {
   });
 
   it('what opens pictures: the same file is opened by another try', async () => {
-    const { page } = await bend(browser, '#ring', { reducedMotion: 'reduce', locale: 'en' });
+    const { page } = await bend(browser, '#shape=ring&v=600', { reducedMotion: 'reduce', locale: 'en' });
     await page.route('**/open-picture-*.js', (route) => route.abort(), { times: 1 });
     const square = pngOf(60, 60, (x, y) => [30, 90, 220, x > 5 && x < 55 && y > 5 && y < 55 ? 255 : 0]);
     await page.setInputFiles('#file', { name: 'square.png', mimeType: 'image/png', buffer: square });

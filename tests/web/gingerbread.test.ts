@@ -120,7 +120,7 @@ describe('shapes', () => {
 
 describe('handles', () => {
   it('follow the mouse, the shape with them; Esc puts them back', async () => {
-    const { page, said } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
+    const { page, said } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
     const rest = await picture(page);
     const before = await handleAt(page, 1);
     await page.mouse.move(before.x, before.y);
@@ -140,7 +140,7 @@ describe('handles', () => {
   });
 
   it('turn by the knob', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
     await page.locator('.point').nth(2).focus();
     await page.waitForSelector('.knob:visible');
     const middle = await handleAt(page, 1);
@@ -155,7 +155,7 @@ describe('handles', () => {
   });
 
   it('a bone turns about its first end, by its second', async () => {
-    const { page } = await bend(browser, '#shape=bar&h=b:-1,0,-0.35,0~b:0.35,0,1,0');
+    const { page } = await bend(browser, '#shape=bar&v=600&h=b:-1,0,-0.35,0~b:0.35,0,1,0');
     const [from, to] = [await handleAt(page, 1), await handleAt(page, 1, 'end')];
     const length = to.x - from.x;
     await page.mouse.move(to.x, to.y);
@@ -170,7 +170,7 @@ describe('handles', () => {
   });
 
   it('follow a finger and turn by a second one; a finger beside them scrolls the page', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', PHONE);
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', PHONE);
     const before = await handleAt(page, 1);
     const cdp = await page.context().newCDPSession(page);
     const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number; id: number }[]) =>
@@ -198,7 +198,7 @@ describe('handles', () => {
   });
 
   it('the wheel turns what is focused, and scrolls the page otherwise', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', { viewport: { width: 600, height: 700 } });
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', { viewport: { width: 600, height: 700 } });
     const at = await handleAt(page, 1);
     await page.locator('.point').nth(2).focus();
     await page.mouse.move(at.x, at.y);
@@ -214,7 +214,7 @@ describe('handles', () => {
   });
 
   it('obey the keyboard: steps, fine and coarse ones, turns, Esc, Delete', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
     await page.locator('.point').nth(2).focus();
     const [x0 = 0, y0 = 0] = await spoken(page, 1);
     const press = async (key: string) => {
@@ -239,7 +239,7 @@ describe('handles', () => {
   });
 
   it('are added as points and bones, by a double click too, and removed down to none', async () => {
-    const { page, said } = await bend(browser, '#shape=man&h=p:0,0.62~p:0,-0.1');
+    const { page, said } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0,-0.1');
     await page.getByRole('button', { name: 'Add a point' }).click();
     await page.getByRole('button', { name: 'Add a bone' }).click();
     await rested(page);
@@ -270,7 +270,7 @@ describe('handles', () => {
   });
 
   it('are typed as numbers; one that would sit outside is told in a sentence, the picture stays', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
     await page.locator('#which').selectOption('1');
     const box = (name: string) => page.locator('.number', { hasText: name }).locator('input');
     await box('Turn °').fill('90');
@@ -294,7 +294,7 @@ describe('handles', () => {
 
 describe('the focus', () => {
   it('goes to a neighbor of a handle that is deleted, at last to what adds one', async () => {
-    const { page } = await bend(browser, '#shape=bar&h=p:-1,0~b:-0.6,0,-0.2,0~p:0.3,0~b:0.5,0,0.9,0~p:1,0');
+    const { page } = await bend(browser, '#shape=bar&v=600&h=p:-1,0~b:-0.6,0,-0.2,0~p:0.3,0~b:0.5,0,0.9,0~p:1,0');
     await page.locator('.point.start').nth(2).focus();
     await page.keyboard.press('Delete');
     expect(await focused(page)).toMatch(/^Bone 2,/);
@@ -311,7 +311,7 @@ describe('the focus', () => {
   });
 
   it('shows a handle that is beside the picture at its rim, and Home brings it back', async () => {
-    const { page } = await bend(browser, '#shape=man&h=p:0,0.62~p:0.72,0.16,9,0,0~p:0,-0.1');
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16,9,0,0~p:0,-0.1');
     const far = page.locator('.point.start').nth(1);
     const opacity = () => far.evaluate((element) => getComputedStyle(element).opacity);
     expect(await opacity()).toBe('0');
@@ -325,7 +325,7 @@ describe('the focus', () => {
   });
 
   it('stays in a group of choices under the arrow keys', async () => {
-    const { page } = await bend(browser, '#ring');
+    const { page } = await bend(browser, '#shape=ring&v=600');
     await chosen(page, 'Shape').focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
@@ -348,7 +348,7 @@ describe('links', () => {
     ['is larger than anything', '0,0,1e300,0,0,1e300', /^Left out of this link/],
   ])('with an outline that %s: the man stands in, and everything works', async (_, outline, told) => {
     // A page of its own: where something is shown already, that stays.
-    const { page, said } = await bend(browser, `#shape=own&o=${outline}&m=rigid-harmonic&show=mesh`, { locale: 'en' });
+    const { page, said } = await bend(browser, `#shape=own&o=${outline}&v=600&m=rigid-harmonic&show=mesh`, { locale: 'en' });
     expect(await words(page)).toMatch(told);
     expect(await page.locator('.figure-title').textContent()).toBe('Gingerbread man');
     expect(await page.getByLabel('Triangles', { exact: true }).isChecked()).toBe(true);
@@ -362,7 +362,7 @@ describe('links', () => {
   });
 
   it('that are partly wrong open as far as they are right, by hand too', async () => {
-    const { page, said } = await bend(browser, '#shape=bar&foo=1&m=none&h=q:1~p:0,0');
+    const { page, said } = await bend(browser, '#shape=bar&v=600&foo=1&m=none&h=q:1~p:0,0');
     expect(await words(page)).toMatch(
       /^Left out of this link, because this page cannot show it: “foo=1”, “m=none”, “q:1”\. The rest/,
     );
@@ -386,7 +386,7 @@ describe('links', () => {
       /9,976 of 10,000 handles/,
     ],
   ])('with %s: drawn or said', async (_, handles, told) => {
-    const { page, said } = await bend(browser, `#shape=man&h=${handles}`);
+    const { page, said } = await bend(browser, `#shape=man&v=600&h=${handles}`);
     expect(await words(page)).toMatch(told);
     expect(covered(await picture(page))).toBeGreaterThan(8000);
     expect(said).toEqual([]);
@@ -395,7 +395,7 @@ describe('links', () => {
 
 it('a link that cannot be copied is shown, selected', async () => {
   const before = () => Object.defineProperty(navigator, 'clipboard', { value: undefined });
-  const { page } = await bend(browser, '#ring', { before });
+  const { page } = await bend(browser, '#shape=ring&v=600', { before });
   await page.locator('#copy').click();
   await page.getByRole('dialog', { name: 'Copy the link by hand' }).waitFor();
   expect(await page.evaluate(() => getSelection()?.toString())).toBe(page.url());
