@@ -1,5 +1,5 @@
 import type { BakeOptions, BodyData, Mesh } from '../../../wasm/ts/types.ts';
-import { bakeInWorker } from '../../worker/index.ts';
+import { bakeInWorker } from '../../worker/bake-in-worker.ts';
 import type { Work } from './figure.ts';
 
 const bodies = new Map<string, Promise<BodyData>>();
