@@ -279,3 +279,58 @@ describe('irbf-20', () => {
     expect(said).toEqual([]);
   });
 });
+
+describe('skinning-1', () => {
+  const moved = (page: Page) => toldNumber(page, 'part that the picked handle moves');
+
+  it('weights follow the handles: one that comes nearer takes room from the others', async () => {
+    const { page, said } = await openFigure(browser, 'skinning-1&v1&from=points&kind=bounded');
+    expect(await told(page)).toMatchObject({ handles: 6, 'least weight': 0, 'largest weight': 1 });
+    const before = await moved(page);
+    await page.getByRole('button', { name: 'Add a point' }).click();
+    await settled(page);
+    expect((await told(page)).handles).toBe(7);
+    await page.locator('.point.start').nth(2).focus();
+    await settled(page);
+    expect(await moved(page)).toBeLessThan(before);
+    await page.getByRole('button', { name: 'Remove handle 2' }).click();
+    await settled(page);
+    expect((await told(page)).handles).toBe(6);
+    expect(said).toEqual([]);
+  });
+
+  it('a handle outside is refused in words, and stays; Escape takes back what was dragged', async () => {
+    const { page, said } = await openFigure(browser, 'skinning-1&v1&around');
+    const before = await told(page);
+    const handle = page.locator('.point.start').first();
+    const place = () => handle.getAttribute('aria-label');
+    const from = await place();
+    await handle.focus();
+    // A step within the ring, then one into its hole.
+    for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowDown');
+    await settled(page);
+    await page.keyboard.press('PageDown');
+    await settled(page);
+    expect(await page.locator('.figure > .trouble').textContent()).toMatch(/Handle 0 .*outside/);
+    expect(await place()).not.toBe(from);
+    expect((await told(page))['part that the picked handle moves']).not.toBe(before['part that the picked handle moves']);
+    await page.keyboard.press('Escape');
+    await settled(page);
+    expect(await place()).toBe(from);
+    expect(await told(page)).toEqual(before);
+    expect(said).toEqual([]);
+  });
+
+  it('an outline of one’s own gets handles, and weights', async () => {
+    const { page, said } = await openFigure(browser, 'skinning-1');
+    await page.locator('.choices input[value=own]').check();
+    await page.locator('.own summary').click();
+    await page.locator('.own textarea').fill('0 0\n4 0\n4 1\n0 1');
+    await page.locator('#use-typed').click();
+    await settled(page);
+    expect(await told(page)).toMatchObject({ handles: 4 });
+    expect(new URL(page.url()).hash).toMatch(/^#skinning-1&v1&from=points&o=/);
+    expect(await page.locator('.figure > .trouble').isVisible()).toBe(false);
+    expect(said).toEqual([]);
+  });
+});

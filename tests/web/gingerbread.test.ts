@@ -198,7 +198,9 @@ describe('handles', () => {
   });
 
   it('the wheel turns what is focused, and scrolls the page otherwise', async () => {
-    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', { viewport: { width: 600, height: 700 } });
+    const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1', {
+      viewport: { width: 600, height: 700 },
+    });
     const at = await handleAt(page, 1);
     await page.locator('.point').nth(2).focus();
     await page.mouse.move(at.x, at.y);

@@ -15,4 +15,5 @@ export const FIGURES: readonly Listed[] = [
   { id: 'irbf-20', title: '50, 35, 20 and 10 centers', load: () => import('./irbf/irbf-20.ts') },
   { id: 'solid', title: 'Weights of a solid', load: () => import('./skinning/solid.ts') },
   { id: 'gingerbread', title: 'Bend a gingerbread man', load: () => import('./skinning/gingerbread.ts') },
+  { id: 'skinning-1', title: 'Handles and their weights', load: () => import('./skinning/skinning-1.ts') },
 ];

@@ -59,6 +59,14 @@ export function isParameter(channel: Channel<unknown>): channel is Parameter {
   return 'type' in channel && ['range', 'auto-range', 'choice', 'switch'].includes(channel.type as string);
 }
 
+/** One of several words, without a control of its own; the first to begin with. */
+export function word<T extends string>(values: readonly [T, ...T[]]): Channel<T> {
+  return { initial: values[0], read: (text) => values.find((value) => value === text), write: String };
+}
+
+/** What no text says. */
+export const unsaid = <T>(initial: T): Channel<T> => ({ initial, read: () => undefined, write: () => '' });
+
 /** As a line of text says it, where no other channel matters. */
 export function readAlone<T>({ read }: Channel<T>, text: string): T | undefined {
   return read(text, [], {});

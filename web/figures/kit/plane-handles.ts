@@ -19,7 +19,7 @@ export interface Handle {
 }
 
 /** 'auto' are those that a shape brings. */
-type Handles = readonly Handle[] | 'auto';
+export type Handles = readonly Handle[] | 'auto';
 
 export const MOST_HANDLES = 24;
 
@@ -80,6 +80,12 @@ export function resting(handle: Handle): Handle {
   return { ...handle, move: [0, 0], turn: 0 };
 }
 
+/** The handle at rest where its pose has it. */
+export function placed(handle: Handle): Handle {
+  const at = ([x, y]: Place): Place => [toThousandths(x), toThousandths(y)];
+  return handle.end ? bone(at(placeOf(handle)), at(endOf(handle))) : point(...at(placeOf(handle)));
+}
+
 /** The handle with its first end at a place; as it was where that is none. */
 export function movedTo(handle: Handle, x: number, y: number): Handle {
   const move: Place = [toThousandths(x - handle.rest[0]), toThousandths(y - handle.rest[1])];
@@ -117,6 +123,15 @@ export function planeHandles(initial: Handles): Channel<Handles> {
         return handle ? [handle] : [];
       });
     },
+  };
+}
+
+/** A handle's number; −1 for none. Texts count from 1. */
+export function pickedHandle(initial: number): Channel<number> {
+  return {
+    initial,
+    read: (text) => (/^\d+$/.test(text) && Number(text) <= MOST_HANDLES ? Number(text) - 1 : undefined),
+    write: (number) => String(number + 1),
   };
 }
 

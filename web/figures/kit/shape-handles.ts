@@ -2,7 +2,7 @@ import { h } from '../../ui/dom.ts';
 import { draggable, type Grip } from '../../ui/drag.ts';
 import { focusNeighbor } from '../../ui/focus.ts';
 import { putHandle } from '../../ui/put-handle.ts';
-import { describe, endOf, type Handle, movedTo, type Place, placeOf, resting, turnedTo } from './plane-handles.ts';
+import { describe, endOf, type Handle, movedTo, type Place, placed, placeOf, resting, turnedTo } from './plane-handles.ts';
 import type { ShapePicture } from './shape-picture.ts';
 
 /** Part of the picture's height for a step of the keyboard. */
@@ -20,6 +20,8 @@ export interface Held {
   /** As they are drawn, on their way to a pose. */
   readonly shown: readonly Handle[];
   readonly picked: number;
+  /** Handles are placed, not posed: where they go, there they rest. */
+  readonly places?: boolean;
   change(handles: readonly Handle[], picked: number): void;
 }
 
@@ -56,9 +58,11 @@ export class ShapeHandles {
 
   /** Other handles, drawn at once: what is listened to next has to know them. */
   set(handles: readonly Handle[], picked: number): void {
-    const { change } = this.#held;
-    this.draw({ handles, shown: handles, picked, change });
-    change(handles, picked);
+    const next = this.#held.places
+      ? handles.map((handle, i) => (handle === this.#held.handles[i] ? handle : placed(handle)))
+      : handles;
+    this.draw({ ...this.#held, handles: next, shown: next, picked });
+    this.#held.change(next, picked);
   }
 
   focus(i: number): void {
@@ -111,8 +115,8 @@ export class ShapeHandles {
       line.style.rotate = `${Math.atan2(dy, dx)}rad`;
     });
     const handle = shown[picked];
-    this.#knob.hidden = !handle || handle.end !== undefined;
-    if (!handle || handle.end) return;
+    this.#knob.hidden = !handle || handle.end !== undefined || held.places === true;
+    if (!handle || this.#knob.hidden) return;
     putHandle(this.#knob, ...toScreen(placeOf(handle)), width, height);
     this.#knob.style.transform = `rotate(${-handle.turn}deg) translateY(${-KNOB}px)`;
   }
@@ -169,8 +173,9 @@ export class ShapeHandles {
   #hold(i: number): () => void {
     this.#invites = -1;
     const held = this.#held.handles[i];
+    const { places } = this.#held;
     // It may be another one by now, of another shape.
-    return () => this.#edit(i, (handle) => (held && handle.rest === held.rest ? held : handle));
+    return () => this.#edit(i, (handle) => (held && (places || handle.rest === held.rest) ? held : handle));
   }
 
   #nudge(i: number, across: number, up: number): void {

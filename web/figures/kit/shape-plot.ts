@@ -14,7 +14,8 @@ import { type PaintedShape, ShapePicture } from './shape-picture.ts';
 interface ShapeDrawing extends Held {
   readonly outline: Shape;
   readonly mesh: PlaneMesh;
-  readonly painted: PaintedShape;
+  /** Of one color, where this is left out. */
+  readonly painted?: PaintedShape;
   /** Where the vertices are now: n×2. */
   readonly positions: ArrayLike<number>;
   /** A handle's weight instead of what is painted: column `picked` of a row a vertex. */
@@ -44,6 +45,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
   readonly #legend = legend();
   readonly #handles: ShapeHandles;
   readonly #remove: HTMLButtonElement;
+  readonly #rest: HTMLButtonElement;
   readonly #left = new AbortController();
   #drawn: ShapeDrawing | undefined;
 
@@ -53,6 +55,11 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
     const adds = tool('Add a point', () => this.#add(({ mesh, handles }) => point(...emptiest(mesh, handles))));
     this.#handles = new ShapeHandles(this.#picture, adds);
     this.#remove = tool('Remove', () => this.#handles.remove(this.#handles.held.picked));
+    this.#rest = tool('Rest pose', () => {
+      const rest = this.#handles.held.handles.map(resting);
+      struck.add(rest);
+      this.#handles.held.change(rest, this.#handles.held.picked);
+    });
     this.#canvas = h('canvas', { role: 'img', 'aria-label': options.label });
     const note = h('p', { class: 'note', role: 'status', hidden: true });
     this.#area = h('div', { class: 'picture' }, this.#canvas, this.#handles.element, this.#legend, note);
@@ -62,11 +69,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
       adds,
       tool('Add a bone', () => this.#add(({ outline, mesh, handles }) => boneIn(outline, emptiest(mesh, handles)))),
       this.#remove,
-      tool('Rest pose', () => {
-        const rest = this.#handles.held.handles.map(resting);
-        struck.add(rest);
-        this.#handles.held.change(rest, this.#handles.held.picked);
-      }),
+      this.#rest,
     );
     this.element = h('div', { class: 'shape-panel' }, tools, this.#area);
     this.#handles.element.addEventListener('dblclick', (event) => this.#addAt(event));
@@ -85,7 +88,8 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
     this.#drawn = drawn;
     const { mesh, painted, positions, weights, lines, handles, picked } = drawn;
     this.#area.style.setProperty('--shape', `${this.#area.clientWidth} / ${this.#area.clientHeight}`);
-    this.#picture.show(mesh, painted, positions);
+    this.#picture.show(mesh, painted ?? plain(), positions);
+    this.#rest.hidden = drawn.places === true;
     this.#picture.setWeight(weights, Math.max(picked, 0), handles.length);
     this.#picture.showLines(lines === true);
     this.#picture.paint(this.#canvas);
@@ -119,6 +123,18 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
     const rest = restOf(this.#drawn.mesh, this.#drawn.positions, place);
     if (rest) this.#add(() => movedTo(point(toThousandths(rest[0]), toThousandths(rest[1])), ...place));
   }
+}
+
+let ofOneColor: PaintedShape | undefined;
+
+function plain(): PaintedShape {
+  if (ofOneColor) return ofOneColor;
+  const canvas = h('canvas', { width: 1, height: 1 });
+  const context = canvas.getContext('2d') as CanvasRenderingContext2D;
+  context.fillStyle = '#c3c9d4';
+  context.fillRect(0, 0, 1, 1);
+  ofOneColor = { canvas, low: [-1, -1], high: [1, 1] };
+  return ofOneColor;
 }
 
 /** What the colors of weights mean. */

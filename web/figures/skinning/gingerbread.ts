@@ -3,18 +3,22 @@ import { countFlips } from '../../models/mesh-shape.ts';
 import { lazy } from '../../ui/lazy.ts';
 import { choice, type Parameter, range, toggle } from '../kit/channel.ts';
 import { define, type PartControl, type Told, type Work } from '../kit/figure.ts';
+import { ownShape } from '../kit/own-shape.ts';
 import { describe, struck } from '../kit/plane-handles.ts';
 import { shapePlot } from '../kit/shape-plot.ts';
 import { Bent, parameters, type State, VERTICES } from './gingerbread/bent.ts';
 import { handlePanel } from './gingerbread/handle-panel.ts';
 import type { DistanceKind, Family, Method, MethodId } from './gingerbread/methods.ts';
 import { FAMILIES, METHODS, methodOf, saidOf, weightsOf } from './gingerbread/methods.ts';
-import { ownShape } from './gingerbread/own-shape.ts';
 import { requirements } from './gingerbread/requirements.ts';
 import { SHAPES } from './gingerbread/shapes.ts';
 import { strip } from './gingerbread/strip.ts';
 
 const slabPart = lazy(() => import('./gingerbread/interior.ts'), 'The part of this page that measures distances');
+
+/** A shape of one's own comes with handles of its own. */
+const { h, v, pick, show } = parameters;
+const asBefore = { h: h.initial, v: v.initial, pick: pick.initial, show: show.initial };
 
 const open = { open: true };
 const methodFor = ({ m }: State) => methodOf(m) as Method;
@@ -138,7 +142,7 @@ export default define<typeof parameters, Bent>({
         };
       },
     }),
-    own: ownShape,
+    own: ownShape<Bent, State>((o, painted) => ({ o, painted, ...asBefore })),
     strip,
     requirements,
     handle: handlePanel,

@@ -1,8 +1,9 @@
 import type { DualQuaternion, LinearBlend } from '../../../wasm/ts/runtime.ts';
 import type { Channel } from '../kit/channel.ts';
-import { choice, range, type StateOf, toggle } from '../kit/channel.ts';
+import { choice, range, type StateOf, toggle, word } from '../kit/channel.ts';
 import { define, type PartControl } from '../kit/figure.ts';
 import { diagonalOf, volumeOf } from '../kit/mesh-measures.ts';
+import { WEIGHTS_ORDERS } from '../kit/plane-weights.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
 import type { SolidWeights } from '../kit/weigh.ts';
 import { weightsOf } from '../kit/weights.ts';
@@ -10,20 +11,13 @@ import { brief } from '../kit/words.ts';
 import { type Pose, poseOf, posesOf, writeTransform } from './solid/pose.ts';
 import { HANDLES, type Solid, type SolidName, solidOf } from './solid/solids.ts';
 
-const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
-
 const handle: Channel<number> = {
   initial: 1,
   read: (text) => (/^[0-5]$/.test(text) ? Number(text) : undefined),
   write: String,
 };
-const solid: Channel<SolidName> = {
-  initial: 'bar',
-  read: (text) => (text in HANDLES ? (text as SolidName) : undefined),
-  write: String,
-};
 const parameters = {
-  solid,
+  solid: word<SolidName>(['bar', 'dog']),
   method: choice(
     'Weights',
     [
@@ -138,7 +132,10 @@ export default define<typeof parameters, Made>({
     work.preview(rest);
     const holds = shape.handles.map((each) => each.holds);
     const bounded = method === 'bounded';
-    const weights = await weightsOf({ positions, triangles, resolution, handles: holds, order: ORDERS[method], bounded }, work);
+    const weights = await weightsOf(
+      { positions, triangles, resolution, handles: holds, order: WEIGHTS_ORDERS[method], bounded },
+      work,
+    );
     const options = { positions, weights: weights.weights };
     const skins = { linear: hb.linearBlend(options), rigid: hb.dualQuaternion(options) };
     return {

@@ -4,15 +4,15 @@ import type { Shape } from '../../../models/shape.ts';
 import { quoted } from '../../../ui/address.ts';
 import { ease, reducedMotion } from '../../../ui/motion.ts';
 import { PageError } from '../../../ui/page-error.ts';
-import type { Channel, StateOf } from '../../kit/channel.ts';
+import { type Channel, type StateOf, unsaid } from '../../kit/channel.ts';
 import type { Wait } from '../../kit/figure.ts';
+import { outline } from '../../kit/outline.ts';
 import { spread } from '../../kit/placing.ts';
-import { type Handle, MOST_HANDLES, planeHandles, resting, restsOf, struck } from '../../kit/plane-handles.ts';
+import { type Handle, pickedHandle, planeHandles, resting, restsOf, struck } from '../../kit/plane-handles.ts';
 import type { PaintedShape } from '../../kit/shape-picture.ts';
 import { Deformer } from './deformer.ts';
 import { paintOwn } from './icing.ts';
 import { type Method, type MethodId, methodOf, weightsOf } from './methods.ts';
-import { outline } from './outline.ts';
 import { SHAPES, type ShapeName, shapeOf } from './shapes.ts';
 
 /** About how many vertices. */
@@ -24,9 +24,6 @@ interface Show {
   /** The triangles. */
   readonly mesh: boolean;
 }
-
-/** What no text says. */
-const unsaid = <T>(initial: T): Channel<T> => ({ initial, read: () => undefined, write: () => '' });
 
 const shape: Channel<ShapeName> = {
   initial: 'man',
@@ -42,12 +39,6 @@ const vertices: Channel<number> = {
     return number >= VERTICES.low && number <= VERTICES.high ? Math.round(number) : undefined;
   },
   write: String,
-};
-/** A handle's number; −1 for none. Texts count from 1. */
-const picked: Channel<number> = {
-  initial: -1,
-  read: (text) => (/^\d+$/.test(text) && Number(text) <= MOST_HANDLES ? Number(text) - 1 : undefined),
-  write: (number) => String(number + 1),
 };
 const show: Channel<Show> = {
   initial: { weight: false, mesh: false },
@@ -68,7 +59,7 @@ export const parameters = {
   m: method,
   h: planeHandles('auto'),
   v: vertices,
-  pick: picked,
+  pick: pickedHandle(-1),
   show,
   /** Whether an outline of one's own is being drawn. */
   draw: unsaid(false),

@@ -1,9 +1,10 @@
 import type { Handlebody } from '../../../../wasm/ts/index.ts';
 import type { PlaneMesh } from '../../../models/mesh-shape.ts';
 import { type Handle, writeTransforms } from '../../kit/plane-handles.ts';
-import type { DistanceKind, EnergyKind, Method, MethodId, WeightsKind } from './methods.ts';
+import { solveWeights, type Weights, type WeightsKind } from '../../kit/plane-weights.ts';
+import type { DistanceKind, EnergyKind, Method, MethodId } from './methods.ts';
 import { weightsOf } from './methods.ts';
-import { type Deformation, energyMinimizer, linearBlend, rigidBlend, solveWeights, type Weights } from './solver.ts';
+import { type Deformation, energyMinimizer, linearBlend, rigidBlend } from './solver.ts';
 
 /** What interior radial basis functions need: made on demand, on another thread. */
 export interface SlabDeformation {

@@ -1,5 +1,6 @@
+import type { WeightsKind } from '../../kit/plane-weights.ts';
+
 /** The ways from handles to a deformed shape that the page compares. */
-export type WeightsKind = 'biharmonic' | 'bounded' | 'harmonic' | 'triharmonic';
 export type EnergyKind = 'rigid' | 'conformal' | 'laplacian' | 'dirichlet';
 export type DistanceKind = 'interior' | 'euclidean';
 export type Family = 'linear' | 'rigid' | 'energy' | 'irbf';

@@ -1,8 +1,9 @@
 import { h } from '../../../ui/dom.ts';
 import type { Kit, OpenPanel, Panel } from '../../kit/figure.ts';
 import { restsOf } from '../../kit/plane-handles.ts';
+import type { WeightsKind } from '../../kit/plane-weights.ts';
 import type { Bent, State } from './bent.ts';
-import { METHODS, type Method, methodOf, WEIGHTS_KINDS, type WeightsKind } from './methods.ts';
+import { METHODS, type Method, methodOf, WEIGHTS_KINDS } from './methods.ts';
 import { type Measure, measureWeights, REQUIREMENTS } from './solver.ts';
 
 /** A place to break a long name. */

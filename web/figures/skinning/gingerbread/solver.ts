@@ -1,8 +1,9 @@
-import type { DualQuaternion, Handlebody, LinearBlend, WeightHandle } from '../../../../wasm/ts/index.ts';
+import type { DualQuaternion, Handlebody, LinearBlend } from '../../../../wasm/ts/index.ts';
 import { WEIGHT_REQUIREMENTS } from '../../../../wasm/ts/weight-requirements.ts';
 import type { PlaneMesh } from '../../../models/mesh-shape.ts';
 import type { Handle } from '../../kit/plane-handles.ts';
-import type { EnergyKind, WeightsKind } from './methods.ts';
+import { weightHandle } from '../../kit/plane-weights.ts';
+import type { EnergyKind } from './methods.ts';
 
 /** The page's one door to the solver: what it asks for, in its own words. */
 
@@ -14,60 +15,8 @@ export interface Deformation {
   dispose(): void;
 }
 
-interface Island {
-  readonly count: number;
-  /** Its first vertex. */
-  readonly first: number;
-  /** The handle that it follows. */
-  readonly handle: number;
-}
-
-export interface Weights {
-  /** n×h, row by row. */
-  readonly weights: Float64Array;
-  readonly islands: readonly Island[];
-  /** Whether the weights are what was asked for: bounded ones are biharmonic before `finish`. */
-  readonly isFinished: boolean;
-  /** Solves again, without factoring again where the solver can. */
-  setHandles(handles: readonly Handle[]): void;
-  /** In small steps, so that the page stays awake; given up, with 'aborted', when other handles are set or it is cancelled. */
-  finish(options: { signal: AbortSignal; onProgress(part: number): void }): Promise<void>;
-  dispose(): void;
-}
-
 /** The most rounds of the rigid energy in a frame; the next frame goes on from there. */
 const ROUNDS = 8;
-
-const ORDERS = { harmonic: 1, biharmonic: 2, bounded: 2, triharmonic: 3 } as const;
-
-export function solveWeights(hb: Handlebody, mesh: PlaneMesh, handles: readonly Handle[], kind: WeightsKind): Weights {
-  const solved = hb.biharmonicWeights({ ...mesh, dimension: 2 }, handles.map(weightHandle), { order: ORDERS[kind] });
-  let finished = kind !== 'bounded';
-  return {
-    get weights() {
-      return solved.weights;
-    },
-    get islands() {
-      return solved.islands;
-    },
-    get isFinished() {
-      return finished;
-    },
-    setHandles(next) {
-      finished = kind !== 'bounded';
-      solved.setHandles(next.map(weightHandle));
-    },
-    async finish(options) {
-      await solved.bound(options);
-      finished = true;
-    },
-    dispose: () => solved.dispose(),
-  };
-}
-
-function weightHandle({ rest, end }: Handle): WeightHandle {
-  return end ? { bone: [rest, end] } : { at: rest };
-}
 
 export function linearBlend(hb: Handlebody, { positions }: PlaneMesh, weights: Float64Array): Deformation {
   return settled(hb.linearBlend({ dimension: 2, positions, weights }));

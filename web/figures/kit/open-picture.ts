@@ -1,7 +1,7 @@
-import { HandlebodyError } from '../../../../wasm/ts/errors.ts';
-import { centered, type Shape } from '../../../models/shape.ts';
-import { type Pixels, tracePicture } from '../../../models/trace-picture.ts';
-import type { PaintedShape } from '../../kit/shape-picture.ts';
+import { HandlebodyError } from '../../../wasm/ts/errors.ts';
+import { centered, type Shape } from '../../models/shape.ts';
+import { type Pixels, tracePicture } from '../../models/trace-picture.ts';
+import type { PaintedShape } from './shape-picture.ts';
 
 /** Pixels along the longer side of the picture that is traced and shown. */
 const SIZE = 768;

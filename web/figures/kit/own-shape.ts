@@ -1,21 +1,31 @@
-import { simplify, withoutRepeats } from '../../../models/resample.ts';
-import { centered, checkShape, type Shape } from '../../../models/shape.ts';
-import { h, svg } from '../../../ui/dom.ts';
-import { lazy } from '../../../ui/lazy.ts';
-import type { Kit, OpenPanel, Panel } from '../../kit/figure.ts';
-import type { PaintedShape } from '../../kit/shape-picture.ts';
-import { type Bent, parameters, type State } from './bent.ts';
+import { simplify, withoutRepeats } from '../../models/resample.ts';
+import { centered, checkShape, type Shape } from '../../models/shape.ts';
+import { h, svg } from '../../ui/dom.ts';
+import { lazy } from '../../ui/lazy.ts';
+import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { portable } from './outline.ts';
+import type { PaintedShape } from './shape-picture.ts';
 
 /** Only who opens a picture needs what traces it. */
 const picturePart = lazy(() => import('./open-picture.ts'), 'The part of this page that opens pictures');
 
-/** An outline of one's own over the picture: drawn in one stroke, typed, or taken from a picture, which may be dropped anywhere. */
-export const ownShape: Panel<Bent, State> = { open: (kit) => new OwnShape(kit) };
+/** What a figure makes of an outline, and of the picture that it was taken from. */
+type Take<S> = (outline: Shape, painted?: PaintedShape) => Partial<S>;
 
-class OwnShape implements OpenPanel<Bent, State> {
+interface Drawing {
+  /** Whether an outline of one's own is being drawn. */
+  readonly draw: boolean;
+}
+
+/** An outline of one's own over the picture: drawn in one stroke, typed, or taken from a picture, which may be dropped anywhere. */
+export function ownShape<M, S extends Drawing>(take: Take<S>): Panel<M, S> {
+  return { open: (kit) => new OwnShape(kit, take) };
+}
+
+class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
   readonly element: HTMLElement;
-  readonly #kit: Kit<State>;
+  readonly #kit: Kit<S>;
+  readonly #accept: Take<S>;
   readonly #path = svg('path');
   readonly #typed = h('textarea', {
     rows: 4,
@@ -38,8 +48,8 @@ class OwnShape implements OpenPanel<Bent, State> {
   /** The file that was opened last. */
   #opened: File | undefined;
 
-  constructor(kit: Kit<State>) {
-    this.#kit = kit;
+  constructor(kit: Kit<S>, take: Take<S>) {
+    [this.#kit, this.#accept] = [kit, take];
     const sheet = h('div', { class: 'sheet' }, svg('svg', { 'aria-hidden': 'true' }, this.#path));
     this.element = h(
       'div',
@@ -81,7 +91,7 @@ class OwnShape implements OpenPanel<Bent, State> {
     this.#listen(this.#left.signal);
   }
 
-  draw(_: Bent, { draw }: State): void {
+  draw(_: M, { draw }: S): void {
     this.element.hidden = !draw;
   }
 
@@ -132,19 +142,10 @@ class OwnShape implements OpenPanel<Bent, State> {
     });
   }
 
-  /** Two units large, with handles of its own. */
+  /** Two units large. */
   #show(outline: Shape, painted?: PaintedShape): void {
-    const { h: handles, v, pick, show } = parameters;
     this.#clear();
-    this.#kit.change({
-      o: portable(outline),
-      painted,
-      h: handles.initial,
-      v: v.initial,
-      pick: pick.initial,
-      show: show.initial,
-      draw: false,
-    });
+    this.#kit.change({ ...this.#accept(portable(outline), painted), draw: false });
   }
 
   /** The choice of a shape says again what is shown. */
@@ -152,7 +153,7 @@ class OwnShape implements OpenPanel<Bent, State> {
     if (!this.#kit.state.draw) return;
     const isFocused = this.element.contains(document.activeElement);
     this.#clear();
-    this.#kit.change({ draw: false });
+    this.#kit.change({ draw: false } as Partial<S>);
     if (isFocused) this.element.closest('.figure')?.querySelector<HTMLElement>('.choices input:checked')?.focus();
   }
 

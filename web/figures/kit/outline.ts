@@ -1,8 +1,8 @@
-import { simplify, withoutRepeats } from '../../../models/resample.ts';
-import type { Shape } from '../../../models/shape.ts';
-import { numbersOf } from '../../../ui/address.ts';
-import type { Channel } from '../../kit/channel.ts';
-import { toThousandths } from '../../kit/plane-handles.ts';
+import { simplify, withoutRepeats } from '../../models/resample.ts';
+import type { Shape } from '../../models/shape.ts';
+import { numbersOf } from '../../ui/address.ts';
+import type { Channel } from './channel.ts';
+import { toThousandths } from './plane-handles.ts';
 
 /** Points of an own outline that an address can carry. */
 const MOST_ADDRESS_POINTS = 400;
