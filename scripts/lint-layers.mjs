@@ -15,6 +15,7 @@ const CORE = [...FLOOR_1, ...FLOOR_2, ...FLOOR_3];
 const BASE = ['wasm/ts', 'web/assets', 'web/models', 'web/three', 'web/worker'];
 const KIT = [...BASE, 'web/ui', 'web/stage', 'web/figures/kit'];
 const GLTF = '@gltf-transform/';
+const D3 = ['d3-array', 'd3-contour', 'd3-scale', 'd3-shape'];
 
 /**
  * What the files of a folder may use besides their own folder.
@@ -46,7 +47,7 @@ export const LAYERS = {
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },
   'web/ui': { may: [], packages: [] },
   'web/stage': { may: ['web/ui'], packages: ['three'] },
-  'web/figures/kit': { may: [...BASE, 'web/ui', 'web/stage'], packages: ['three', 'd3-array', 'd3-contour'] },
+  'web/figures/kit': { may: [...BASE, 'web/ui', 'web/stage'], packages: ['three', ...D3] },
   'web/figures/course': { may: KIT, packages: ['three'], apart: true },
   'web/figures/irbf': { may: KIT, packages: ['three'], apart: true },
   'web/figures/skinning': { may: KIT, packages: ['three'], apart: true },
@@ -56,7 +57,7 @@ export const LAYERS = {
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
   'web/learn': {
     may: [...BASE, 'web/ui', 'web/stage', 'web/figures', 'web/figures/kit', 'web/element'],
-    packages: ['three', 'd3-array', 'd3-contour', GLTF],
+    packages: ['three', GLTF],
   },
 };
 

@@ -365,10 +365,10 @@ describe('weighted kernels', () => {
 describe('drawing', () => {
   it('a path follows its curve, leaves gaps for what is no number, and does not run away', () => {
     const map = [10, 0, -1, 100] as const;
-    expect(curvePath(Float64Array.of(0, 1, 2), [1, 2, 3], map)).toBe('M0 99L10 98L20 97');
-    expect(curvePath(Float64Array.of(0, 1, 2, 3), [1, Number.NaN, 3, 4], map)).toBe('M0 99M20 97L30 96');
-    expect(curvePath(Float64Array.of(0, 1), [1e12, -1e12], map)).toBe('M0 -4000L10 4000');
-    expect(curvePath(Float64Array.of(0, 1), [7, 1, 8, 2], map, 2, 1)).toBe('M0 99L10 98');
+    expect(curvePath(Float64Array.of(0, 1, 2), [1, 2, 3], map)).toBe('M0,99L10,98L20,97');
+    expect(curvePath(Float64Array.of(0, 1, 2, 3), [1, Number.NaN, 3, 4], map)).toBe('M0,99ZM20,97L30,96');
+    expect(curvePath(Float64Array.of(0, 1), [1e12, -1e12], map)).toBe('M0,-4000L10,4000');
+    expect(curvePath(Float64Array.of(0, 1), [7, 1, 8, 2], map, 2, 1)).toBe('M0,99L10,98');
   });
 
   it(`labels keep their distance and their order, seed ${seed}`, () => {

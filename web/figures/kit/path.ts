@@ -1,3 +1,5 @@
+import { line } from 'd3-shape';
+
 /** How far outside the picture a curve is followed, in pixels: beyond it only its direction matters. */
 const FAR = 4000;
 
@@ -9,19 +11,12 @@ export function curvePath(
   stride = 1,
   first = 0,
 ): string {
-  let path = '';
-  let pen = 'M';
-  for (let i = 0; i < xs.length; i++) {
-    const y = (ys[first + i * stride] as number) * ay + by;
-    if (Number.isNaN(y)) {
-      pen = 'M';
-      continue;
-    }
-    const px = Math.round(((xs[i] as number) * ax + bx) * 10) / 10;
-    path += `${pen}${px} ${Math.round(Math.min(Math.max(y, -FAR), FAR) * 10) / 10}`;
-    pen = 'L';
-  }
-  return path;
+  const value = (i: number) => (ys[first + i * stride] as number) * ay + by;
+  const pen = line<number>(
+    (x) => x * ax + bx,
+    (_, i) => Math.min(Math.max(value(i), -FAR), FAR),
+  ).digits(1);
+  return pen.defined((_, i) => !Number.isNaN(value(i)))(xs as unknown as number[]) ?? '';
 }
 
 /** Places for labels beside each other, from where they would like to be: at least `gap` apart, between two ends, in the same order. */

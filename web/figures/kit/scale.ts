@@ -1,8 +1,8 @@
-import { ticks } from 'd3-array';
+import { scaleLinear, scaleLog } from 'd3-scale';
 
 /** Marks for an axis: round numbers between two ends, about as many as wanted, with the digits that tell them apart. */
 export function axisMarks(low: number, high: number, wanted: number): { at: number[]; digits: number } {
-  const at = ticks(low, high, Math.max(wanted, 2));
+  const at = scaleLinear([low, high], [0, 1]).ticks(Math.max(wanted, 2));
   const step = at.length > 1 ? (at[1] as number) - (at[0] as number) : 1;
   return { at, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 }
@@ -19,7 +19,7 @@ export function colorRange(values: readonly number[]): readonly [number, number]
 /** A slider's position, 0 to 1, for a number: even in the logarithm; with `zero`, the left end is 0. */
 export function toLog(value: number, low: number, high: number, zero = false): number {
   if (zero && value <= 0) return 0;
-  const part = Math.log(Math.min(Math.max(value, low), high) / low) / Math.log(high / low);
+  const part = scaleLog([low, high], [0, 1]).clamp(true)(value);
   return zero ? ZERO_END + part * (1 - ZERO_END) : part;
 }
 
@@ -27,7 +27,7 @@ export function toLog(value: number, low: number, high: number, zero = false): n
 export function fromLog(position: number, low: number, high: number, zero = false): number {
   if (zero && position < ZERO_END / 2) return 0;
   const part = zero ? Math.max(0, (position - ZERO_END) / (1 - ZERO_END)) : position;
-  return Number((low * (high / low) ** part).toPrecision(2));
+  return Number(scaleLog([low, high], [0, 1]).invert(part).toPrecision(2));
 }
 
 /** The part of a slider that stands for zero. */
