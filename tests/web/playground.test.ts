@@ -651,7 +651,7 @@ describe('a copied link', () => {
     expect(await cramped(page)).toEqual([]);
     await page.keyboard.press('Escape');
     await sheet.waitFor({ state: 'detached' });
-    expect(await focused(page)).toBe('Copy link');
+    await soon(() => focused(page)).toBe('Copy link');
     expect(said).toEqual([]);
   });
 

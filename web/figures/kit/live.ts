@@ -6,14 +6,12 @@ import { explain } from '../../ui/explain.ts';
 import { NotFetched } from '../../ui/lazy.ts';
 import { isAbort } from '../../ui/messages.ts';
 import { PageError } from '../../ui/page-error.ts';
-import { Progress } from '../../ui/progress.ts';
-import { Trouble } from '../../ui/trouble.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControls, partsOf } from './controls.ts';
 import type { Figure, Kit, OpenPanel, Panel, Told, Wait, Work } from './figure.ts';
+import { Layout } from './layout.ts';
 import { savePicture } from './save-picture.ts';
 import { fromText, type Preset, type ReadState, stateOfPreset, toText } from './state-text.ts';
-import { brief } from './words.ts';
 
 /** Milliseconds without a change after which a figure is at rest: it tells its state, speaks, and draws finely. */
 const REST = 350;
@@ -54,31 +52,14 @@ interface Shown<C extends Channels> {
   readonly state: StateOf<C>;
 }
 
-let nextSides = 1;
-
 /** A figure on a page: its state, what was made of it, its pictures and controls. */
 export class Live<C extends Channels, M extends Disposable> {
-  /** Has the figure as its property `figure`. */
-  readonly element = h('section', { class: 'figure' });
   readonly #figure: Figure<C, M>;
   readonly #options: LiveOptions;
-  readonly #title = h('h2', { class: 'figure-title' });
-  readonly #said = h('p', { class: 'trouble', role: 'alert', hidden: true });
-  readonly #trouble = new Trouble(this.#said, () => this.element.querySelector('button'));
-  /** What of a link could not be read, until something is changed. */
-  readonly #notice = h('p', { class: 'notice', role: 'status', hidden: true });
-  readonly #note = new Trouble(this.#notice, () => this.element.querySelector('button'));
-  readonly #busy = h('div', { class: 'progress', hidden: true });
-  readonly #progress = new Progress(this.#busy);
-  readonly #pictures = h('div', { class: 'panels' });
-  readonly #caption = h('p', { class: 'caption' });
-  readonly #facts = h('dl', { class: 'facts' });
-  readonly #spoken = h('p', { class: 'unseen', role: 'status' });
+  readonly #layout: Layout;
   readonly #controls: PartShown<StateOf<C>>;
-  readonly #presets = new Map<string, HTMLButtonElement>();
   readonly #slots: readonly Slot<M, StateOf<C>>[];
   readonly #kit: Kit<StateOf<C>, M>;
-  readonly #sides: readonly HTMLInputElement[];
   /** The sides that are not shown, as they were left. */
   readonly #aside = new Map<number, Shown<C>>();
   /** What the pictures are to show alone: the rest fades. */
@@ -113,9 +94,8 @@ export class Live<C extends Channels, M extends Disposable> {
     [this.#preset, this.#state] = [read.preset, read.state];
     this.#controls = partControls(partsOf(figure), this.#state, (part, value) => {
       const patch = part.write(this.#visible, value as never);
-      const preset = figure.presets.find(({ id }) => id === patch);
-      if (preset) this.#begin(preset);
-      else if (typeof patch !== 'string') this.change(patch);
+      if (typeof patch === 'string') this.#begin(patch);
+      else this.change(patch);
     });
     this.#kit = this.#makeKit();
     this.#slots = Object.values(figure.panels).map((panel) => {
@@ -123,17 +103,27 @@ export class Live<C extends Channels, M extends Disposable> {
       place.style.display = 'contents';
       return { panel, place };
     });
-    const name = `sides-${nextSides++}`;
-    this.#sides = (figure.sides?.options ?? []).map((_, side) =>
-      h('input', { type: 'radio', name, onchange: () => this.#turnTo(side) }),
-    );
+    const places = (wanted: Panel<M, StateOf<C>>['place']) =>
+      this.#slots.filter(({ panel }) => panel.place === wanted).map(({ place }) => place);
+    this.#layout = new Layout(figure, this.#controls.element, places, {
+      begin: (id) => this.#begin(id),
+      turnTo: (side) => this.#turnTo(side),
+      reset: () => this.reset(),
+      save: (kind) =>
+        void savePicture(this.#layout.pictures, figure.id, kind).catch((error: unknown) => this.#layout.trouble.tell(error)),
+    });
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;
     this.element.dataset.state = 'loading';
     this.element.dataset.rest = 'no';
-    this.#lay();
+    this.#show();
     this.#sayLeft(read);
     void this.#open();
+  }
+
+  /** Has the figure as its property `figure`. */
+  get element(): HTMLElement {
+    return this.#layout.element;
   }
 
   /** The state's line of text. */
@@ -167,7 +157,7 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   change(patch: Partial<StateOf<C>>): void {
-    this.#note.clear();
+    this.#layout.note.clear();
     const { moving = [], shown = [] } = this.#figure;
     const isLight = (key: string) => moving.includes(key) || shown.includes(key);
     const keys = Object.keys(patch);
@@ -219,64 +209,6 @@ export class Live<C extends Channels, M extends Disposable> {
     this.element.remove();
   }
 
-  #lay(): void {
-    const { presets, title, sides, heading } = this.#figure;
-    this.#title.textContent = title;
-    const row = h('div', { class: 'presets', role: 'group', 'aria-label': 'Presets' });
-    row.toggleAttribute('data-film', this.#figure.thumbnail !== undefined);
-    for (const preset of presets) {
-      const act = () => this.#begin(preset);
-      const button = h('button', { type: 'button', class: 'button small', onclick: act }, h('span', {}, preset.name));
-      this.#presets.set(preset.id, button);
-      row.append(button);
-    }
-    const tool = (name: string, act: () => void) =>
-      h('button', { type: 'button', class: 'button small quiet', onclick: act }, name);
-    const save = (kind: 'svg' | 'png') => () =>
-      void savePicture(this.#pictures, this.#figure.id, kind).catch((error: unknown) => this.#trouble.tell(error));
-    const tools = h(
-      'div',
-      { class: 'tools' },
-      tool('Reset', () => this.reset()),
-      tool('SVG', save('svg')),
-      tool('PNG', save('png')),
-    );
-    const of = (wanted: Panel<M, StateOf<C>>['place']) =>
-      this.#slots.filter(({ panel }) => panel.place === wanted).map(({ place }) => place);
-    this.#pictures.append(...of(undefined));
-    const controls = h(
-      'div',
-      { class: 'controls' },
-      ...of('above'),
-      ...(heading ? [h('h3', {}, heading)] : []),
-      this.#controls.element,
-      ...of('below'),
-      this.#facts,
-    );
-    const labels = this.#sides.map((input, i) => h('label', {}, input, h('span', {}, sides?.options[i]?.[0] ?? '')));
-    const choice = h('fieldset', { class: 'segmented' }, h('legend', { class: 'unseen' }, sides?.label ?? ''), ...labels);
-    this.element.append(
-      h('div', { class: 'figure-head' }, this.#title, ...(sides ? [choice] : []), h('div', { class: 'tools' }, ...of('tools'))),
-      this.#said,
-      this.#notice,
-      h(
-        'div',
-        { class: 'figure-body' },
-        h(
-          'div',
-          { class: 'figure-stage' },
-          this.#pictures,
-          this.#busy,
-          this.#caption,
-          h('div', { class: 'figure-foot' }, row, tools),
-        ),
-        controls,
-      ),
-      this.#spoken,
-    );
-    this.#show();
-  }
-
   async #open(): Promise<void> {
     try {
       const { solvers } = this.#options;
@@ -285,7 +217,7 @@ export class Live<C extends Channels, M extends Disposable> {
       if (this.#disposed) return;
       this.#stir();
       this.#picturePresets(this.#hb, [...this.#figure.presets]);
-      this.#showChosen();
+      this.#layout.bringChosen();
     } catch (error) {
       this.element.dataset.state = 'failed';
       this.element.dataset.rest = 'yes';
@@ -293,7 +225,7 @@ export class Live<C extends Channels, M extends Disposable> {
         this.element.dataset.state = 'loading';
         void this.#open();
       };
-      this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
+      this.#layout.trouble.tell(error, error instanceof NotFetched ? again : undefined);
     }
   }
 
@@ -318,7 +250,7 @@ export class Live<C extends Channels, M extends Disposable> {
     if (!preset || !this.#figure.thumbnail || this.#disposed) return;
     const draw = () => {
       const picture = this.#figure.thumbnail?.(hb, stateOfPreset(this.#figure.parameters, preset));
-      if (picture) this.#presets.get(preset.id)?.prepend(picture);
+      if (picture) this.#layout.picture(preset.id, picture);
       this.#picturePresets(hb, presets);
     };
     if ('requestIdleCallback' in globalThis) requestIdleCallback(draw);
@@ -359,7 +291,7 @@ export class Live<C extends Channels, M extends Disposable> {
       get address() {
         return address();
       },
-      tell: (error) => this.#trouble.tell(error),
+      tell: (error) => this.#layout.trouble.tell(error),
       wait: this.#wait,
       emphasize: (key) => {
         this.#emphasis = key;
@@ -367,7 +299,9 @@ export class Live<C extends Channels, M extends Disposable> {
       },
       focus: (selector, other) =>
         void requestAnimationFrame(() => {
-          const found = [...this.#pictures.querySelectorAll<HTMLElement>(selector)].find((element) => element.checkVisibility());
+          const found = [...this.#layout.pictures.querySelectorAll<HTMLElement>(selector)].find((element) =>
+            element.checkVisibility(),
+          );
           (found ?? other)?.focus();
         }),
     };
@@ -379,14 +313,14 @@ export class Live<C extends Channels, M extends Disposable> {
     try {
       await work((part) => {
         if (this.#work || performance.now() - begun < PATIENCE) return;
-        if (this.#busy.hidden) this.#progress.begin(label);
-        this.#progress.set(part);
+        if (this.#layout.busy.hidden) this.#layout.progress.begin(label);
+        this.#layout.progress.set(part);
       });
     } catch (error) {
-      this.#trouble.tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
+      this.#layout.trouble.tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
     } finally {
       this.#waits--;
-      if (!this.#work) this.#progress.end();
+      if (!this.#work) this.#layout.progress.end();
       this.#unmoved = true;
       if (!this.#disposed) this.#stir();
     }
@@ -394,7 +328,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #fade(): void {
     const key = this.#emphasis === undefined ? undefined : String(this.#emphasis);
-    for (const element of this.#pictures.querySelectorAll<HTMLElement | SVGElement>('[data-key]'))
+    for (const element of this.#layout.pictures.querySelectorAll<HTMLElement | SVGElement>('[data-key]'))
       element.toggleAttribute('data-faded', key !== undefined && element.dataset.key !== key);
   }
 
@@ -412,7 +346,9 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#choose(kept);
   }
 
-  #begin(preset: Preset<C>): void {
+  #begin(id: string): void {
+    const preset = this.#figure.presets.find((known) => known.id === id);
+    if (!preset) return;
     const [seen, base] = [this.#visible, stateOfPreset(this.#figure.parameters, preset)];
     const kept = (this.#figure.kept ?? []).filter((key) => !(key in preset.state)).map((key) => [key, seen[key]]);
     this.#choose({ preset, state: { ...base, ...Object.fromEntries(kept) } });
@@ -443,10 +379,10 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#unmoved = false;
     try {
       if (this.#figure.move?.(made, this.#visible, this.#wait)) this.#unmoved = true;
-      if (this.#stuck) this.#trouble.clear();
+      if (this.#stuck) this.#layout.trouble.clear();
       this.#stuck = '';
     } catch (error) {
-      if (this.#stuck !== String(error)) this.#trouble.tell(error);
+      if (this.#stuck !== String(error)) this.#layout.trouble.tell(error);
       this.#stuck = String(error);
     }
     if (this.#unmoved) this.#frame ||= requestAnimationFrame(() => void this.#run());
@@ -459,7 +395,7 @@ export class Live<C extends Channels, M extends Disposable> {
     const work = new AbortController();
     const [preset, state] = [this.#preset, this.#state];
     const patience = setTimeout(() => {
-      this.#progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
+      this.#layout.progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
     }, PATIENCE);
     try {
       const making = this.#making(this.#hb as HandlebodyRuntime, state, work.signal);
@@ -472,7 +408,7 @@ export class Live<C extends Channels, M extends Disposable> {
       this.#made = made;
       this.#unmoved = true;
       this.#good = { preset, state };
-      if (!this.#alone) this.#trouble.clear();
+      if (!this.#alone) this.#layout.trouble.clear();
       this.element.dataset.state = 'ready';
     } catch (error) {
       // What was asked for meanwhile tells its own end.
@@ -511,16 +447,16 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #end(): void {
     this.#work = undefined;
-    this.#progress.end();
+    this.#layout.progress.end();
   }
 
   #failed(error: unknown, asked: Shown<C>): void {
     const again = () => this.#choose(asked);
-    if (!isAbort(error)) this.#trouble.tell(error, error instanceof NotFetched ? again : undefined);
+    if (!isAbort(error)) this.#layout.trouble.tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {
       this.element.dataset.state = 'failed';
-      this.#trouble.tell(isAbort(error) ? cancelled() : error, () => {
+      this.#layout.trouble.tell(isAbort(error) ? cancelled() : error, () => {
         this.#unmade = true;
         this.#stir();
       });
@@ -540,7 +476,9 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#unmade = true;
     this.#stir();
     const { message, remedy } = explain(error);
-    this.#note.tell(new PageError('not-made', `What the link asks for cannot be made, so the preset is shown. ${message}`, remedy));
+    this.#layout.note.tell(
+      new PageError('not-made', `What the link asks for cannot be made, so the preset is shown. ${message}`, remedy),
+    );
   }
 
   #worker(signal: AbortSignal): Work<M> {
@@ -548,14 +486,14 @@ export class Live<C extends Channels, M extends Disposable> {
       address: this.#kit.address,
       signal,
       progress: (part, label) => {
-        if (!signal.aborted) this.#progress.set(part, label);
+        if (!signal.aborted) this.#layout.progress.set(part, label);
       },
       preview: (made) => {
         if (!this.#made && !signal.aborted) this.#paint(made);
       },
       alone: () => {
         this.#alone = true;
-        this.#trouble.tell(withoutWorker());
+        this.#layout.trouble.tell(withoutWorker());
       },
     };
   }
@@ -576,7 +514,7 @@ export class Live<C extends Channels, M extends Disposable> {
         else if (opened.element.parentElement !== place) place.append(opened.element);
         if (shown && !panel.place) count++;
       }
-      this.#pictures.dataset.count = String(count);
+      this.#layout.pictures.dataset.count = String(count);
       for (const { place, opened } of this.#slots) if (!place.hidden) opened?.draw(made, state);
       this.#fade();
     });
@@ -603,13 +541,10 @@ export class Live<C extends Channels, M extends Disposable> {
         this.#told = this.#figure.told?.(made, this.#state) ?? [];
       });
     }
-    const words = this.#told.map(([name, value]) => [name, typeof value === 'number' ? brief(value) : value] as const);
-    this.#facts.replaceChildren(...words.flatMap(([name, value]) => [h('dt', {}, name), h('dd', {}, value)]));
-    const say = made && this.#figure.say?.(made, this.#state);
-    this.#spoken.textContent = say ?? words.map(([name, value]) => `${name}: ${value}.`).join(' ');
+    this.#layout.tell(this.#told, made && this.#figure.say?.(made, this.#state));
     const { state } = this;
     if (state !== this.#text) {
-      const shown = `${this.#preset.id} ${this.#title.textContent}`;
+      const shown = `${this.#preset.id} ${this.#layout.title}`;
       const another = this.#text !== '' && (state === `v1&${this.#preset.id}` || shown !== this.#toldAs);
       this.#toldAs = shown;
       this.#text = state;
@@ -621,41 +556,25 @@ export class Live<C extends Channels, M extends Disposable> {
   /** The controls, the caption and the row of presets say what the state is. */
   #show(): void {
     this.#controls.show(this.#state);
-    const side = this.#figure.sides?.of(this.#state);
-    for (const [i, input] of this.#sides.entries()) input.checked = i === side;
+    const { sides, titleOf, title } = this.#figure;
+    this.#layout.show(this.#preset, titleOf?.(this.#visible) ?? this.#preset.title ?? title, sides?.of(this.#state));
     // Nothing is shown, so nothing is chosen: any of it can be asked for.
     if (this.element.dataset.state === 'failed' && !this.#work)
       for (const radio of this.element.querySelectorAll<HTMLInputElement>('input[type=radio]')) radio.checked = false;
-    const { look = '', attempt = '', title = this.#figure.title } = this.#preset;
-    this.#title.textContent = this.#figure.titleOf?.(this.#visible) ?? title;
-    this.#caption.textContent = [look, attempt].filter(Boolean).join(' ');
-    const another = this.#presets.get(this.#preset.id)?.ariaPressed !== 'true';
-    for (const [id, button] of this.#presets) button.ariaPressed = String(id === this.#preset.id);
-    if (another) this.#showChosen();
-  }
-
-  /** Along its row only: the page does not move. */
-  #showChosen(): void {
-    const button = this.#presets.get(this.#preset.id);
-    const row = button?.parentElement;
-    if (!button || !row) return;
-    const from = button.offsetLeft - row.offsetLeft;
-    if (from < row.scrollLeft || from + button.offsetWidth > row.scrollLeft + row.clientWidth)
-      row.scrollLeft = from - (row.clientWidth - button.offsetWidth) / 2;
   }
 
   #attempt(work: () => void): void {
     try {
       work();
     } catch (error) {
-      this.#trouble.tell(error);
+      this.#layout.trouble.tell(error);
     }
   }
 
   #sayLeft({ left, newer }: ReadState<C>): void {
     const said = newer ? madeLater() : leftOut(left);
-    if (said) this.#note.tell(said);
-    else this.#note.clear();
+    if (said) this.#layout.note.tell(said);
+    else this.#layout.note.clear();
   }
 }
 

@@ -82,13 +82,18 @@ function iceAlong(context: CanvasRenderingContext2D, shape: Shape, color: string
   context.restore();
 }
 
-/** Specks of dough, always the same. */
-function crumbs(context: CanvasRenderingContext2D, [left, bottom]: Place, [right, top]: Place): void {
-  let seed = 7;
-  const random = () => {
-    seed = (seed * 16807) % 2147483647;
-    return seed / 2147483647;
+/** Numbers from 0 to 1, always the same. */
+function randomFrom(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (state * 16807) % 2147483647;
+    return state / 2147483647;
   };
+}
+
+/** Specks of dough. */
+function crumbs(context: CanvasRenderingContext2D, [left, bottom]: Place, [right, top]: Place): void {
+  const random = randomFrom(7);
   for (let i = 0; i < 900; i++) {
     context.fillStyle = random() < 0.5 ? 'rgb(90 45 10 / 16%)' : 'rgb(255 230 190 / 16%)';
     context.beginPath();
@@ -99,15 +104,7 @@ function crumbs(context: CanvasRenderingContext2D, [left, bottom]: Place, [right
 }
 
 function pathOf(shape: Shape): Path2D {
-  const path = new Path2D();
-  for (const ring of shape) {
-    for (let i = 0; i < ring.length; i += 2) {
-      if (i === 0) path.moveTo(ring[0] as number, ring[1] as number);
-      else path.lineTo(ring[i] as number, ring[i + 1] as number);
-    }
-    path.closePath();
-  }
-  return path;
+  return new Path2D(shape.map((ring) => `M${ring.join(' ')}Z`).join(''));
 }
 
 /** A drop of sugar with a light on it. */
@@ -128,11 +125,7 @@ function disk(context: CanvasRenderingContext2D, x: number, y: number, r: number
 
 /** A squeezed line of icing. */
 function squeeze(context: CanvasRenderingContext2D, points: readonly Place[], width: number, color = '#fff8ec'): void {
-  const path = new Path2D();
-  points.forEach(([x, y], i) => {
-    if (i === 0) path.moveTo(x, y);
-    else path.lineTo(x, y);
-  });
+  const path = new Path2D(`M${points.join(' ')}`);
   context.save();
   context.translate(0, -0.008);
   context.strokeStyle = 'rgb(60 25 5 / 35%)';
@@ -142,6 +135,15 @@ function squeeze(context: CanvasRenderingContext2D, points: readonly Place[], wi
   context.strokeStyle = color;
   context.lineWidth = width;
   context.stroke(path);
+}
+
+/** A smile, r wide to each side of a middle, and as high; the part of a half circle that it spans. */
+function smile(context: CanvasRenderingContext2D, y: number, r: Place, part: number, width: number, color?: string): void {
+  const points = Array.from({ length: 17 }, (_, i): Place => {
+    const angle = Math.PI * (1.5 + part * (i / 16 - 0.5));
+    return [r[0] * Math.cos(angle), y + r[1] * Math.sin(angle)];
+  });
+  squeeze(context, points, width, color);
 }
 
 /** A wave across a limb: from one place to another. */
@@ -166,11 +168,7 @@ export function paintMan(shape: Shape): PaintedShape {
       wave(context, [side * 0.6, 0.028], [side * 0.575, 0.272]);
       wave(context, [side * 0.425, -0.66], [side * 0.14, -0.58].map((v, i) => (i === 0 ? v : v + 0.02)) as unknown as Place);
     }
-    const smile = Array.from({ length: 17 }, (_, i): Place => {
-      const angle = Math.PI * (1.18 + (0.64 * i) / 16);
-      return [0.14 * Math.cos(angle), 0.585 + 0.12 * Math.sin(angle)];
-    });
-    squeeze(context, smile, 0.026);
+    smile(context, 0.585, [0.14, 0.12], 0.64, 0.026);
     [0.16, 0.0, -0.16].forEach((y, i) => {
       candy(context, 0, y, 0.043, CANDIES[i] as string);
     });
@@ -199,13 +197,12 @@ export function paintRing(shape: Shape): PaintedShape {
       [0.93, 0.02, 17, 0],
       [0.53, 0.018, 9, 1],
     ] as const) {
-      for (let i = 0; i <= 240; i++) {
-        const angle = (i / 240) * 2 * Math.PI;
+      const edge = Array.from({ length: 240 }, (_, i) => {
+        const angle = (i / 120) * Math.PI;
         const r = mean + swing * Math.sin(waves * angle + phase);
-        if (i === 0) glaze.moveTo(r * Math.cos(angle), r * Math.sin(angle));
-        else glaze.lineTo(r * Math.cos(angle), r * Math.sin(angle));
-      }
-      glaze.closePath();
+        return [r * Math.cos(angle), r * Math.sin(angle)];
+      });
+      glaze.addPath(new Path2D(`M${edge.join(' ')}Z`));
     }
     context.save();
     context.shadowColor = 'rgb(60 25 5 / 50%)';
@@ -214,11 +211,7 @@ export function paintRing(shape: Shape): PaintedShape {
     context.fillStyle = '#f4a9c0';
     context.fill(glaze, 'evenodd');
     context.restore();
-    let seed = 3;
-    const random = () => {
-      seed = (seed * 16807) % 2147483647;
-      return seed / 2147483647;
-    };
+    const random = randomFrom(3);
     context.lineWidth = 0.022;
     for (let i = 0; i < 110; i++) {
       const [r, angle, lean] = [0.58 + 0.3 * random(), (i / 110) * 2 * Math.PI, random() * 3];
@@ -240,11 +233,7 @@ export function paintOctopus(shape: Shape): PaintedShape {
       context.fillStyle = 'rgb(200 40 90 / 35%)';
       disk(context, side * 0.29, 0.2, 0.055);
     }
-    const smile = Array.from({ length: 15 }, (_, i): Place => {
-      const angle = Math.PI * (1.2 + (0.6 * i) / 14);
-      return [0.1 * Math.cos(angle), 0.22 + 0.09 * Math.sin(angle)];
-    });
-    squeeze(context, smile, 0.024, '#7c2350');
+    smile(context, 0.22, [0.1, 0.09], 0.6, 0.024, '#7c2350');
     // Suckers along the tentacles.
     context.fillStyle = '#f7c3d3';
     for (const [ax, ay, bx, by] of [
