@@ -20,6 +20,7 @@ import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import { extentOf } from '../../models/shape.ts';
 import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
+import { onInterruption } from '../../ui/screen.ts';
 import { ColorMap } from './color-map.ts';
 import type { Place } from './plane-handles.ts';
 import { FRAGMENT, VERTEX } from './shape-shader.ts';
@@ -37,6 +38,7 @@ const MARGIN = 0.2;
 /** A shape of the plane, deformed, as the graphics card draws it on any canvas. */
 export class ShapePicture {
   readonly #easel = sharedEasel();
+  readonly #left = new AbortController();
   readonly #scene = new Scene();
   readonly #camera = new OrthographicCamera(-1, 1, 1, -1, -1, 1);
   readonly #uniforms = {
@@ -68,18 +70,19 @@ export class ShapePicture {
   #middle: Place = [0, 0];
   #half: Place = [1, 1];
 
-  /** Throws when there is no WebGL. */
-  constructor() {
+  /** Throws when there is no WebGL. `say` and `redraw` are for when the graphics are interrupted: see `onInterruption`. */
+  constructor(say: (words: string) => void = () => {}, redraw: () => void = () => {}) {
     for (const [order, object] of [this.#mesh, this.#wires, this.#rim].entries()) {
       object.frustumCulled = false;
       object.renderOrder = order;
       this.#scene.add(object);
     }
-  }
-
-  /** Whose graphics can be interrupted. */
-  get source(): HTMLCanvasElement {
-    return this.#easel.source;
+    const tell = (words: string) => {
+      // What was made before belongs to no card any more, and can be given back only now.
+      if (words) this.#forget();
+      say(words);
+    };
+    onInterruption(this.#easel.source, tell, redraw, this.#left.signal);
   }
 
   /** A mesh at rest, what is painted on it, and where its vertices are now (n×2). */
@@ -166,6 +169,12 @@ export class ShapePicture {
   }
 
   dispose(): void {
+    this.#left.abort();
+    this.#forget();
+  }
+
+  /** Gives back what the graphics card holds; it is made anew by the next picture. */
+  #forget(): void {
     disposeObject(this.#scene);
     this.#uniforms.picture.value?.dispose();
     this.#uniforms.colors.value.dispose();

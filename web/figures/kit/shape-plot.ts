@@ -2,7 +2,7 @@ import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
 import { h } from '../../ui/dom.ts';
 import { PageError } from '../../ui/page-error.ts';
-import { onInterruption, onPaper, onScreenChange } from '../../ui/screen.ts';
+import { onPaper, onScreenChange } from '../../ui/screen.ts';
 import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { boneIn, emptiest, restOf } from './placing.ts';
@@ -39,7 +39,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
   readonly element: HTMLElement;
   readonly #kit: Kit<S>;
   readonly #options: ShapePlotOptions<M, S>;
-  readonly #picture = new ShapePicture();
+  readonly #picture: ShapePicture;
   readonly #canvas: HTMLCanvasElement;
   readonly #area: HTMLElement;
   readonly #legend = legend();
@@ -51,6 +51,12 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
 
   constructor(kit: Kit<S>, options: ShapePlotOptions<M, S>) {
     [this.#kit, this.#options] = [kit, options];
+    const note = h('p', { class: 'note', role: 'status', hidden: true });
+    const say = (words: string) => {
+      note.textContent = words;
+      note.hidden = words === '';
+    };
+    this.#picture = new ShapePicture(say, () => kit.redraw());
     const tool = (name: string, act: () => void) => h('button', { type: 'button', class: 'button small', onclick: act }, name);
     const adds = tool('Add a point', () => this.#add(({ mesh, handles }) => point(...emptiest(mesh, handles))));
     this.#handles = new ShapeHandles(this.#picture, adds);
@@ -61,7 +67,6 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
       this.#handles.held.change(rest, this.#handles.held.picked);
     });
     this.#canvas = h('canvas', { role: 'img', 'aria-label': options.label });
-    const note = h('p', { class: 'note', role: 'status', hidden: true });
     this.#area = h('div', { class: 'picture' }, this.#canvas, this.#handles.element, this.#legend, note);
     const tools = h(
       'div',
@@ -76,11 +81,6 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
     const { signal } = this.#left;
     onScreenChange(this.#area, () => kit.redraw(), signal);
     onPaper(this.#canvas, () => this.#picture.paint(this.#canvas), signal);
-    const say = (words: string) => {
-      note.textContent = words;
-      note.hidden = words === '';
-    };
-    onInterruption(this.#picture.source, say, () => kit.redraw(), signal);
   }
 
   draw(made: M, state: S): void {
