@@ -276,7 +276,7 @@ describe('interpolants', () => {
     await error.waitFor();
     expect(await error.locator('.sentence').textContent()).toMatch(/[Pp]oint.*\.$/);
     expect(await error.locator('.remedy').textContent()).toMatch(/\. The picture is the last good one\.$/);
-    const xs = (d: string | null) => (d ?? '').match(/[ML][-\d.]+ [-\d.]+/g)?.length ?? 0;
+    const xs = (d: string | null) => (d ?? '').match(/[ML][-\d.]+,[-\d.]+/g)?.length ?? 0;
     expect(xs(await curve.getAttribute('d'))).toBeGreaterThan(300);
     expect(await curve.getAttribute('data-stale')).not.toBeNull();
     await rested(page);
