@@ -20,7 +20,7 @@ describe('layers that are kept', () => {
         'web/three/plugin.ts': "import { Mesh } from 'three';\nimport { version } from '../assets/schema.ts';\n",
         'web/worker/bake.ts': "import { version } from '../assets/schema.ts';\n",
         'web/ui/dom.ts': 'export const h = 0;\n',
-        'web/learn/a/main.ts': "import { ticks } from 'd3-array';\nimport { h } from '../../ui/dom.ts';\n",
+        'web/figures/kit/a.ts': "import { ticks } from 'd3-array';\nimport { h } from '../../ui/dom.ts';\n",
         'web/studio/main.ts':
           "import { Mesh } from 'three';\nimport { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';\nimport './main.css';\n",
         'tests/ts/load.test.ts': "import fs from 'node:fs';\nimport { read } from '../../wasm/ts/load.ts';\n",

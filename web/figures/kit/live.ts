@@ -71,6 +71,8 @@ export class Live<C extends Channels, M extends Disposable> {
   /** The state that `made` and the pictures are of. */
   #good: Shown<C> | undefined;
   #work: AbortController | undefined;
+  /** In words. */
+  #doing = '';
   #unmade = true;
   #unmoved = false;
   /** Why the last movement was none: told once. */
@@ -391,11 +393,12 @@ export class Live<C extends Channels, M extends Disposable> {
   /** What was made stays until there is something new; a choice that comes to nothing goes back to what is shown. */
   async #make(): Promise<void> {
     this.#unmade = false;
+    this.#doing = 'Working…';
     this.#work?.abort();
     const work = new AbortController();
     const [preset, state] = [this.#preset, this.#state];
     const patience = setTimeout(() => {
-      this.#layout.progress.begin('Working…', () => work.abort(new DOMException('Cancelled.', 'AbortError')));
+      this.#layout.progress.begin(this.#doing, () => work.abort(new DOMException('Cancelled.', 'AbortError')));
     }, PATIENCE);
     try {
       const making = this.#making(this.#hb as HandlebodyRuntime, state, work.signal);
@@ -486,7 +489,9 @@ export class Live<C extends Channels, M extends Disposable> {
       address: this.#kit.address,
       signal,
       progress: (part, label) => {
-        if (!signal.aborted) this.#layout.progress.set(part, label);
+        if (signal.aborted) return;
+        this.#doing = label ?? this.#doing;
+        this.#layout.progress.set(part, label);
       },
       preview: (made) => {
         if (!this.#made && !signal.aborted) this.#paint(made);

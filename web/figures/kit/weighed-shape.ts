@@ -7,7 +7,7 @@ import type { Handle, Handles } from './plane-handles.ts';
 import { solveWeights, type Weights, type WeightsKind, weightHandle } from './plane-weights.ts';
 
 /** What weights are asked for: compared by identity, so that only what is new is computed again. */
-export interface WeighedQuestion {
+interface WeighedQuestion {
   readonly outline: Shape;
   readonly vertices: number;
   readonly handles: Handles;
