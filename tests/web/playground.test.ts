@@ -485,7 +485,7 @@ describe('the plane', () => {
         } as typeof get;
       },
     });
-    await page.getByLabel('Surfaces instead of maps').check();
+    await page.getByLabel('Surfaces instead of maps').click();
     await page.getByText('Surfaces need WebGL 2').waitFor();
     expect(await colorsOf(page, 0)).toBeGreaterThan(12);
   });

@@ -17,6 +17,15 @@ interface Wishes {
 
 let nextSides = 1;
 
+/** Brings one of a row into view, along the row only: the page does not move. */
+export function bringIntoRow(element: HTMLElement): void {
+  const row = element.parentElement;
+  if (!row) return;
+  const from = element.offsetLeft - row.offsetLeft;
+  if (from < row.scrollLeft || from + element.offsetWidth > row.scrollLeft + row.clientWidth)
+    row.scrollLeft = from - (row.clientWidth - element.offsetWidth) / 2;
+}
+
 /** A figure's elements: its words, its presets, and where its panels and controls lie. */
 export class Layout {
   readonly element = h('section', { class: 'figure' });
@@ -84,14 +93,10 @@ export class Layout {
     this.#chosen = preset.id;
   }
 
-  /** Brings the preset's button into view, along its row only: the page does not move. */
+  /** Brings the preset's button into view. */
   bringChosen(): void {
     const button = [...this.#presets.values()].find(({ ariaPressed }) => ariaPressed === 'true');
-    const row = button?.parentElement;
-    if (!button || !row) return;
-    const from = button.offsetLeft - row.offsetLeft;
-    if (from < row.scrollLeft || from + button.offsetWidth > row.scrollLeft + row.clientWidth)
-      row.scrollLeft = from - (row.clientWidth - button.offsetWidth) / 2;
+    if (button) bringIntoRow(button);
   }
 
   /** A small picture on a preset's button. */

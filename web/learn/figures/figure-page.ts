@@ -1,3 +1,4 @@
+import { bringIntoRow } from '../../figures/kit/layout.ts';
 import { Live, type Solvers } from '../../figures/kit/live.ts';
 import { FIGURES, type Listed } from '../../figures/list.ts';
 import { writeAddress } from '../../ui/address.ts';
@@ -40,7 +41,10 @@ export function figurePage(only?: string): void {
     const named = !only && id === listed.id;
     const state = named ? text.slice(listed.id.length + 1) : text;
     const mine = ++asked;
-    for (const link of links.children) link.ariaCurrent = (link as HTMLAnchorElement).hash === `#${listed.id}` ? 'page' : null;
+    for (const link of links.querySelectorAll('a')) {
+      link.ariaCurrent = link.hash === `#${listed.id}` ? 'page' : null;
+      if (link.ariaCurrent) bringIntoRow(link);
+    }
     if (shown?.listed === listed) {
       shown.live.state = state;
       return;
