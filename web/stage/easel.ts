@@ -80,6 +80,8 @@ function rendererOf(canvas: HTMLCanvasElement): WebGLRenderer {
     );
   }
   const renderer = new WebGLRenderer({ ...attributes, canvas, context });
+  // For pictures that are cut off somewhere.
+  renderer.localClippingEnabled = true;
   renderer.toneMapping = ACESFilmicToneMapping;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = VSMShadowMap;

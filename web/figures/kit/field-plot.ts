@@ -179,7 +179,7 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
       panel.name(map, map.slot ?? i, map.key ?? i + 1);
       panel.stale = !!map.stale;
       panel.relief = surfaces && !ofPoint ? this.#relief(surfaces) : undefined;
-      if (surfaces) surfaces.paint(panel.context, panel.field.values, size, own(i), this.#ground, ofPoint);
+      if (surfaces) surfaces.paint(panel.canvas, panel.field.values, size, own(i), this.#ground, ofPoint);
       else panel.paint(size, own(i), this.#options.isolines?.(state) ?? true, line?.ends);
     });
   }
@@ -238,6 +238,7 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
     };
     surfacesPart(this.#kit.address)
       .then(({ Surfaces }) => {
+        if (!this.element.isConnected) return;
         this.#surfaces = new Surfaces(again, (words) => this.#say(words));
         this.#maps.after(this.#surfaces.controls);
         this.#say('');

@@ -17,8 +17,9 @@ import {
   Scene,
   SphereGeometry,
   Vector3,
-  WebGLRenderer,
 } from 'three';
+import { disposeObject } from '../../stage/dispose-object.ts';
+import { sharedEasel } from '../../stage/easel.ts';
 import { h } from '../../ui/dom.ts';
 import { onInterruption } from '../../ui/screen.ts';
 import type { ColorMap } from './color-map.ts';
@@ -39,21 +40,27 @@ const HEIGHT = 0.55;
 const REACH = 0.8;
 const FAR = 20;
 
-/** Fields as surfaces over the plane: one renderer draws them all, one after another, and copies each into its own canvas. */
+/** Fields as surfaces over the plane, drawn one after another, each copied into its own canvas. */
 export class Surfaces {
   /** Sliders that turn and tilt all surfaces alike. */
   readonly controls: HTMLElement;
-  readonly #renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  readonly #easel = sharedEasel();
+  readonly #left = new AbortController();
   readonly #scene = new Scene();
   readonly #camera = new OrthographicCamera(-0.76, 0.76, 0.76, -0.76, -4, 4);
   readonly #material = new MeshLambertMaterial({
     vertexColors: true,
+    toneMapped: false,
     side: DoubleSide,
     clippingPlanes: [new Plane(new Vector3(0, 1, 0), REACH * HEIGHT), new Plane(new Vector3(0, -1, 0), REACH * HEIGHT)],
   });
   readonly #geometry = new BufferGeometry();
   readonly #mesh = new Mesh(this.#geometry, this.#material);
-  readonly #balls = new InstancedMesh(new SphereGeometry(0.022, 16, 12), new MeshLambertMaterial(), MOST_POINTS);
+  readonly #balls = new InstancedMesh(
+    new SphereGeometry(0.022, 16, 12),
+    new MeshLambertMaterial({ toneMapped: false }),
+    MOST_POINTS,
+  );
   readonly #matrix = new Matrix4();
   readonly #color = new Color();
   readonly #place = new Vector3();
@@ -68,10 +75,14 @@ export class Surfaces {
   constructor(redraw: () => void, say: (words: string) => void) {
     const light = new DirectionalLight(0xffffff, 2.2);
     light.position.set(-0.5, 1.5, 0.8);
-    this.#renderer.localClippingEnabled = true;
     this.#scene.add(new AmbientLight(0xffffff, 1.4), light, this.#mesh, this.#balls, floor());
     this.#balls.frustumCulled = this.#mesh.frustumCulled = false;
-    onInterruption(this.#renderer.domElement, say, redraw);
+    const tell = (words: string) => {
+      // What was made before belongs to no card any more, and can be given back only now.
+      if (words) this.#forget();
+      say(words);
+    };
+    onInterruption(this.#easel.source, tell, redraw, this.#left.signal);
     const slider = (label: string, low: number, high: number, value: number, change: (value: number) => void) => {
       const input = h('input', { type: 'range', min: low, max: high, step: 1, value, oninput: () => change(input.valueAsNumber) });
       return h('label', { class: 'control' }, label, input);
@@ -91,16 +102,9 @@ export class Surfaces {
   }
 
   /** `bare`: without the points. */
-  paint(
-    context: CanvasRenderingContext2D,
-    values: Float64Array,
-    size: number,
-    colors: ColorMap,
-    ground: Ground,
-    bare: boolean,
-  ): void {
+  paint(canvas: HTMLCanvasElement, values: Float64Array, size: number, colors: ColorMap, ground: Ground, bare: boolean): void {
     // The last picture stays.
-    if (this.#renderer.getContext().isContextLost()) return;
+    if (this.#easel.source.getContext('webgl2')?.isContextLost()) return;
     this.#lay(size);
     const positions = this.#geometry.getAttribute('position') as BufferAttribute;
     const shades = this.#geometry.getAttribute('color') as BufferAttribute;
@@ -126,16 +130,18 @@ export class Surfaces {
     this.#balls.instanceMatrix.needsUpdate = true;
     if (this.#balls.instanceColor) this.#balls.instanceColor.needsUpdate = true;
 
-    const { width, height } = context.canvas;
-    this.#renderer.setSize(width, height, false);
-    this.#renderer.render(this.#scene, this.#camera);
-    context.clearRect(0, 0, width, height);
-    context.drawImage(this.#renderer.domElement, 0, 0);
+    this.#easel.paint(canvas, this.#scene, this.#camera, { width: canvas.width, height: canvas.height, ratio: 1 }, false);
   }
 
   dispose(): void {
-    this.#renderer.dispose();
+    this.#left.abort();
+    this.#forget();
     this.controls.remove();
+  }
+
+  #forget(): void {
+    disposeObject(this.#scene);
+    this.#balls.dispose();
   }
 
   screen(ground: Ground, i: number): readonly [number, number] {
@@ -203,5 +209,5 @@ function floor(): LineLoop {
   const y = -HEIGHT / 2;
   const corners = [-0.5, y, -0.5, 0.5, y, -0.5, 0.5, y, 0.5, -0.5, y, 0.5];
   const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(corners, 3));
-  return new LineLoop(geometry, new LineBasicMaterial({ color: 0x8f8c86 }));
+  return new LineLoop(geometry, new LineBasicMaterial({ color: 0x8f8c86, toneMapped: false }));
 }
