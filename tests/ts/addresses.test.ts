@@ -149,6 +149,15 @@ describe('points of any size', () => {
   });
 });
 
+describe('addresses of before they had a version', () => {
+  it('name the plane by its dimension alone', () => {
+    const { preset, state, left } = playground.fromAddress('#d=2&p=0,0,1;1,1,2&m=shepard');
+    expect([preset.id, state.d, state.p.values, left]).toEqual(['plane', 2, [1, 2], []]);
+    expect(playground.fromAddress('#d=2').preset.id).toBe('plane');
+    expect(playground.fromAddress('#from=fig-20&d=2').preset.id).toBe('fig-20');
+  });
+});
+
 describe('what an address says too much', () => {
   const told = (read: Page['read'], hash: string) => {
     const left: string[] = [];

@@ -58,6 +58,17 @@ describe('a figure’s state as a line of text', () => {
     expect(fromText(channels, presets, 'power=1e300&width=-4').state).toMatchObject({ power: 8, width: 0 });
   });
 
+  it('reads what texts without a version meant: other names, and a preset by another word', () => {
+    const former = { strength: 'power', 'mode=2': 'fig-10' };
+    expect(fromText(channels, presets, 'strength=3', former)).toMatchObject({ preset: first, state: { power: 3 }, left: [] });
+    expect(fromText(channels, presets, 'mode=2&kernel=cubic', former)).toMatchObject({
+      preset: second,
+      state: { kernel: 'cubic' },
+    });
+    expect(fromText(channels, presets, `from=${first.id}&mode=2`, former).preset).toBe(first);
+    expect(fromText(channels, presets, 'v1&strength=3&mode=2', former)).toMatchObject({ preset: first, state: { power: 2 } });
+  });
+
   it('opens the preset where a newer version wrote it', () => {
     const read = fromText(channels, presets, 'v2&from=fig-10&power=3');
     expect(read).toMatchObject({ preset: second, newer: true, state: { power: 1 } });

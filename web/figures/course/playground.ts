@@ -44,6 +44,7 @@ export default define<typeof parameters, Fits>({
   },
   thumbnail,
   mend,
+  former: { 'd=2': 'plane' },
   shown: ['in', 'range', 'pick'],
   make: (hb, state, _, last) => (last ?? new Fits(hb)).update(state),
   panels: {

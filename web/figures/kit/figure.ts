@@ -1,6 +1,6 @@
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { Channels, Parameter, StateOf } from './channel.ts';
-import type { Mend, Preset } from './state-text.ts';
+import type { Former, Mend, Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
 export interface Work<M = unknown> {
@@ -99,8 +99,7 @@ export interface Figure<C extends Channels, M> {
   readonly sides?: Sides<C>;
   /** A small picture of a preset, for the row of them. */
   thumbnail?(hb: HandlebodyRuntime, state: StateOf<C>): SVGSVGElement;
-  /** What channels were called in links of before texts had a version: `from` is the preset. */
-  readonly former?: Readonly<Record<string, keyof C | 'from'>>;
+  readonly former?: Former;
   readonly mend?: Mend<C>;
   /** Channels for which nothing is made anew: `move` hears of them in each frame of a drag. */
   readonly moving?: readonly (keyof C)[];

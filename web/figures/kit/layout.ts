@@ -86,11 +86,13 @@ export class Layout {
   /** Says which preset is shown, and on which side. */
   show(preset: AnyFigure['presets'][number], title: string, side: number | undefined): void {
     this.#title.textContent = title;
-    this.#caption.textContent = [preset.look, preset.attempt].filter(Boolean).join(' ');
     for (const [i, input] of this.#sides.entries()) input.checked = i === side;
     for (const [id, button] of this.#presets) button.ariaPressed = String(id === preset.id);
-    if (preset.id !== this.#chosen) this.bringChosen();
+    if (preset.id === this.#chosen) return;
     this.#chosen = preset.id;
+    const { look = '', attempt } = preset;
+    this.#caption.replaceChildren(look, ...(attempt ? [h('strong', {}, ' Try: '), attempt] : []));
+    this.bringChosen();
   }
 
   /** Brings the preset's button into view. */

@@ -22,8 +22,11 @@ export interface Preset<C extends Channels> {
   readonly state: Partial<StateOf<C>>;
 }
 
-/** What channels were called in texts without a version. */
-type Former<C extends Channels> = Readonly<Record<string, keyof C | 'from'>>;
+/**
+ * What channels were called in texts without a version, "from" being the preset; and parts of such texts that meant a preset where none was
+ * named: { 'd=2': 'plane' }.
+ */
+export type Former = Readonly<Record<string, string>>;
 
 /** What follows from what a text says, named by its channels: a frame that holds its points. */
 export type Mend<C extends Channels> = (state: StateOf<C>, said: ReadonlySet<string>) => StateOf<C>;
@@ -56,7 +59,7 @@ export function fromText<C extends Channels>(
   channels: C,
   presets: readonly Preset<C>[],
   text: string,
-  former: Former<C> = {},
+  former: Former = {},
   mend: Mend<C> = (state) => state,
 ): ReadState<C> {
   const [first] = presets;
@@ -72,7 +75,7 @@ export function fromText<C extends Channels>(
     const lost = left[i] as string[];
     const at = part.indexOf('=');
     const [name, value] = at < 0 ? ['from', part] : [part.slice(0, at), part.slice(at + 1)];
-    const key = (Number.isNaN(version) && Object.hasOwn(former, name) && String(former[name])) || name;
+    const key = (Number.isNaN(version) && Object.hasOwn(former, name) && former[name]) || name;
     const named = key === 'from' ? presets.find(({ id }) => id === plain(value)) : undefined;
     // No preset, perhaps a channel of that name.
     const channel = key === 'from' ? name : key;
@@ -81,7 +84,8 @@ export function fromText<C extends Channels>(
     else lost.push(quoted(plain(part)));
   }
   const said = new Set(preset ? ['from'] : []);
-  preset ??= first;
+  const meant = Number.isNaN(version) ? parts.map((part) => former[part]) : [];
+  preset ??= presets.find(({ id }) => meant.includes(id)) ?? first;
   const state: Record<string, unknown> = { ...stateOfPreset(channels, preset) };
   const newer = version > VERSION;
   if (newer) return { preset, state: state as StateOf<C>, left: [], newer };
