@@ -460,7 +460,7 @@ async function interrupt(page: Page, { picture = '' }: Kinds): Promise<void> {
   expect(colorsIn(await shot(page, picture))).toBeGreaterThan(20);
 }
 
-it.each(['studio/', 'learn/figures/', 'learn/solid-weights/'])(
+it.each(['studio/', 'learn/figures/', 'learn/solid-weights/', 'learn/interpolation/', 'learn/gingerbread/'])(
   'says in its HTML where its program does not come: %s',
   async (address) => {
     const page = await browser.newPage(USUAL);
