@@ -170,6 +170,7 @@ describe('shapes of one’s own', () => {
   it('are drawn in one stroke', async () => {
     const { page, said } = await bend(browser, '#shape=man&v=600');
     await choiceOf(page, 'own').check();
+    await arrival(page, '.sheet');
     const sheet = await page.locator('.sheet').boundingBox();
     if (!sheet) throw new Error('there is nothing to draw on');
     const [cx, cy] = [sheet.x + sheet.width / 2, sheet.y + sheet.height / 2];
