@@ -317,7 +317,8 @@ describe('skinning-1', () => {
     await page.keyboard.press('Escape');
     await settled(page);
     expect(await place()).toBe(from);
-    expect(await told(page)).toEqual(before);
+    // Another handle is an update of the factorization, which rounds otherwise.
+    for (const [name, value] of Object.entries(await told(page))) expect(value).toBeCloseTo(Number(before[name]), 9);
     expect(said).toEqual([]);
   });
 

@@ -25,7 +25,7 @@ export class WeighedShape {
   /** Throws on an outline that is none. */
   private constructor(hb: Handlebody, question: WeighedQuestion) {
     [this.#hb, this.#of] = [hb, question];
-    this.mesh = meshShape(question.outline, question);
+    this.mesh = meshShape(question.outline, { vertices: question.vertices });
   }
 
   /** Other handles on the shape of `last` cost a solve. Bounded weights, which can be cancelled, are made anew. Throws what the solver throws. */

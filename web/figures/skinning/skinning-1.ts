@@ -1,5 +1,6 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import { bar, gingerbreadMan, octopus, ring } from '../../models/outlines.ts';
+import type { Shape } from '../../models/shape.ts';
 import { choice, type StateOf, unsaid, word } from '../kit/channel.ts';
 import { define, type PartControl } from '../kit/figure.ts';
 import { outline } from '../kit/outline.ts';
@@ -8,7 +9,16 @@ import { bone, pickedHandle, planeHandles, point } from '../kit/plane-handles.ts
 import { shapePlot } from '../kit/shape-plot.ts';
 import { WeighedShape } from '../kit/weighed-shape.ts';
 
-const OUTLINES = { man: gingerbreadMan(), bar: bar(), ring: ring(), octopus: octopus() };
+const OUTLINES = { man: once(gingerbreadMan), bar: once(bar), ring: once(ring), octopus: once(octopus) };
+
+/** Traced when it is first asked for, and the same one from then on. */
+function once(trace: () => Shape): () => Shape {
+  let traced: Shape | undefined;
+  return () => {
+    traced ??= trace();
+    return traced;
+  };
+}
 
 const parameters = {
   o: outline,
@@ -64,7 +74,7 @@ export default define<typeof parameters, WeighedShape>({
   shown: ['pick', 'draw'],
   whole: true,
   make: (hb, { o, shape, h, kind }, work, last) =>
-    WeighedShape.make(hb as Handlebody, { outline: o ?? OUTLINES[shape], vertices: 1200, handles: h, kind }, work, last),
+    WeighedShape.make(hb as Handlebody, { outline: o ?? OUTLINES[shape](), vertices: 1200, handles: h, kind }, work, last),
   panels: {
     shape: shapePlot<WeighedShape, State>({
       label: 'The shape, colored by the weight of the picked handle',
