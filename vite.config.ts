@@ -1,8 +1,8 @@
 // The site: every web/**/index.html is one page of it.
-import { existsSync, readdirSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { defineConfig } from 'vite';
+import { defineConfig, type Plugin } from 'vite';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -15,7 +15,18 @@ const pages = files
   .sort()
   .map((file) => [path.posix.dirname(file).replace(/^\.$/, 'main').replaceAll('/', '-'), path.join(web, file)]);
 
+/** What several pages have alike is written once: <!--#include "../figures/head.html"-->, beside the page that asks for it. */
+const includes: Plugin = {
+  name: 'includes',
+  transformIndexHtml: {
+    order: 'pre',
+    handler: (html, { filename }) =>
+      html.replace(/<!--#include "(.+)"-->/g, (_, file: string) => readFileSync(path.resolve(filename, '..', file), 'utf8')),
+  },
+};
+
 export default defineConfig({
+  plugins: [includes],
   root: web,
   publicDir: '../public',
   base: './',

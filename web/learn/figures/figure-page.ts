@@ -23,7 +23,7 @@ const solvers: Solvers = {
  * A page of figures: one at a time, which its address names and says the state of, "#course-12&v1&fig-12"; or of one figure alone, whose
  * state is all that the address says.
  */
-export function figurePage(only?: string): void {
+function figurePage(only?: string): void {
   const [main, links] = [byId('figure'), byId('figures')];
   const trouble = h('p', { class: 'trouble', role: 'alert', hidden: true });
   const line = new Trouble(trouble, () => byId('copy'));
@@ -86,3 +86,5 @@ function once<T>(part: (state: string) => Promise<{ load(): Promise<T> }>): () =
     return coming;
   };
 }
+
+figurePage(document.body.dataset.only);

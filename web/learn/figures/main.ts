@@ -1,3 +1,0 @@
-import { figurePage } from './figure-page.ts';
-
-figurePage();

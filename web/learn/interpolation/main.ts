@@ -1,3 +1,0 @@
-import { figurePage } from '../figures/figure-page.ts';
-
-figurePage('playground');
