@@ -4,9 +4,10 @@ import { afterEach, describe, expect, it, vi } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BakeOptions, BakeShape, BakeWarning, BodyData, Mesh } from '../../wasm/ts/types.ts';
-import { answerBake, type BakePort } from '../../web/worker/answer-bake.ts';
-import { bakeInWorker } from '../../web/worker/index.ts';
+import { answer, answerBake, type WorkPort } from '../../web/worker/answer.ts';
+import { bakeInWorker, type WeightsQuestion, weighInWorker } from '../../web/worker/index.ts';
 import { packError, unpackError } from '../../web/worker/messages.ts';
+import { weigh } from '../../web/worker/weigh.ts';
 import { boxMesh } from './support/shapes.ts';
 
 type Bake = (shape: BakeShape, options: BakeOptions) => Promise<BodyData>;
@@ -17,13 +18,13 @@ class FakeWorker extends EventTarget {
   terminated = false;
   readonly #channel = new MessageChannel();
 
-  constructor(start: (port: BakePort) => void) {
+  constructor(start: (port: WorkPort) => void) {
     super();
     FakeWorker.all.push(this);
     const { port1, port2 } = this.#channel;
     port1.onmessage = ({ data }) => this.dispatchEvent(new MessageEvent('message', { data }));
     queueMicrotask(() => {
-      start(port2 as unknown as BakePort);
+      start(port2 as unknown as WorkPort);
       port2.start();
     });
   }
@@ -237,5 +238,50 @@ describe.skipIf(!existsSync(new URL('../../wasm/handlebody.wasm', import.meta.ur
     const mesh = { ...box, triangles: Uint32Array.of(0, 1, 9999) };
     const error = await errorOf(bakeInWorker(mesh, { worker: makeWorker((posted, o) => hb.bake(posted, o)) }));
     expect([error.code, error.culprit]).toEqual(['mesh-index-out-of-range', { kind: 'triangle', index: 0 }]);
+  });
+
+  describe('weighInWorker', () => {
+    const question: WeightsQuestion = {
+      surface: box,
+      handles: [{ at: [0.3, 0.5, 0.5] }, { at: [1.7, 0.5, 0.5] }],
+      resolution: 12,
+      order: 2,
+      bounded: true,
+    };
+    const weigher = async () => {
+      const { load } = await import('../../wasm/ts/index.ts');
+      const hb = await load();
+      return () =>
+        new FakeWorker((port) =>
+          answer<WeightsQuestion, Awaited<ReturnType<typeof weigh>>>(port, async (asked, listener) => {
+            const made = await weigh(hb, asked, listener);
+            return { answer: made, transfer: [made.weights] };
+          }),
+        ) as unknown as Worker;
+    };
+
+    it('gives in a worker what it gives here: bounded weights that sum to 1 at the surface’s vertices', async () => {
+      const parts: number[] = [];
+      const there = await weighInWorker(question, { worker: await weigher(), onProgress: (part) => parts.push(part) });
+      const onFallback = vi.fn();
+      expect(await weighInWorker(question, { onFallback })).toEqual(there);
+      expect(onFallback).toHaveBeenCalledOnce();
+      expect(there.weights.length).toBe((2 * box.positions.length) / 3);
+      for (let v = 0; v < there.weights.length; v += 2) {
+        expect((there.weights[v] as number) + (there.weights[v + 1] as number)).toBeCloseTo(1, 5);
+        expect(Math.min(there.weights[v] as number, there.weights[v + 1] as number)).toBeGreaterThan(-1e-6);
+      }
+      expect([there.measures.holds.bounded, parts.at(-1)]).toEqual([true, 1]);
+    });
+
+    it('throws the solver’s errors through the worker, and what the fallback throws', async () => {
+      const lost = { ...question, handles: [{ at: [9, 0, 0] as const }] };
+      const [here, there] = [errorOf(weighInWorker(lost)), errorOf(weighInWorker(lost, { worker: await weigher() }))];
+      expect([(await there).code, (await there).message]).toEqual([(await here).code, (await here).message]);
+      const onFallback = () => {
+        throw new Error('not here');
+      };
+      await expect(weighInWorker(question, { onFallback })).rejects.toThrow('not here');
+    });
   });
 });

@@ -177,7 +177,7 @@ describe('what is chosen', () => {
   });
 
   it('is no method where no worker comes at first; another try brings the weights', async () => {
-    const { page } = await open('', { missing: '**/weights-worker-*.js', state: 'failed' });
+    const { page } = await open('', { missing: '**/weigh-worker-*.js', state: 'failed' });
     await soon(() => page.locator('.figure .trouble').textContent()).toMatch(/computes weights could not be fetched\./);
     expect(await checked(page)).toEqual([]);
     await page.unrouteAll();

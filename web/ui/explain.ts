@@ -1,4 +1,4 @@
-export interface Told {
+interface Told {
   readonly message: string;
   readonly remedy: string;
   readonly detail?: string;

@@ -1,12 +1,13 @@
 import type { DualQuaternion, LinearBlend } from '../../../wasm/ts/runtime.ts';
+import { notFetched } from '../../ui/lazy.ts';
+import type { SolidWeights, WeightsQuestion } from '../../worker/weigh.ts';
+import { weighInWorker } from '../../worker/weigh-in-worker.ts';
 import type { Channel } from '../kit/channel.ts';
 import { choice, range, type StateOf, toggle, word } from '../kit/channel.ts';
-import { define, type PartControl } from '../kit/figure.ts';
+import { define, type PartControl, type Work } from '../kit/figure.ts';
 import { diagonalOf, volumeOf } from '../kit/mesh-measures.ts';
 import { WEIGHTS_ORDERS } from '../kit/plane-weights.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
-import type { SolidWeights } from '../kit/weigh.ts';
-import { weightsOf } from '../kit/weights.ts';
 import { brief } from '../kit/words.ts';
 import { type Pose, poseOf, posesOf, writeTransform } from './solid/pose.ts';
 import { HANDLES, type Solid, type SolidName, solidOf } from './solid/solids.ts';
@@ -75,6 +76,18 @@ const parts: readonly PartControl<State>[] = [
   }),
 ];
 
+/** Weights from another thread; it says so where none may start, and where its script does not come. */
+function weighed(question: WeightsQuestion, work: Work): Promise<SolidWeights> {
+  work.progress(undefined, 'Computing weights…');
+  const onFallback = (reason: unknown) => {
+    if (reason instanceof Event) throw reason;
+    work.alone();
+  };
+  return weighInWorker(question, { signal: work.signal, onProgress: work.progress, onFallback }).catch(async (error) => {
+    throw error instanceof Event ? await notFetched('The part of this page that computes weights') : error;
+  });
+}
+
 interface Made {
   readonly shape: Solid;
   readonly diagonal: number;
@@ -127,15 +140,11 @@ export default define<typeof parameters, Made>({
     work.progress(undefined, 'Getting the solid…');
     const shape = await solidOf(name);
     work.signal.throwIfAborted();
-    const { positions, triangles, resolution } = shape;
+    const { positions, triangles } = shape;
     const rest = { shape, diagonal: diagonalOf(positions), volume: volumeOf(positions, triangles), positions: positions.slice() };
     work.preview(rest);
-    const holds = shape.handles.map((each) => each.holds);
-    const bounded = method === 'bounded';
-    const weights = await weightsOf(
-      { positions, triangles, resolution, handles: holds, order: WEIGHTS_ORDERS[method], bounded },
-      work,
-    );
+    const question = { surface: shape, handles: shape.handles.map(({ holds }) => holds), resolution: shape.resolution };
+    const weights = await weighed({ ...question, order: WEIGHTS_ORDERS[method], bounded: method === 'bounded' }, work);
     const options = { positions, weights: weights.weights };
     const skins = { linear: hb.linearBlend(options), rigid: hb.dualQuaternion(options) };
     return {

@@ -1,0 +1,64 @@
+import type { BakeOptions, BakeShape, BakeWarning, BodyData } from '../../wasm/ts/types.ts';
+import { packError, type WorkReply, type WorkRequest } from './messages.ts';
+
+/** The worker's side of the wire: a worker's global scope, or one end of a channel. */
+export interface WorkPort {
+  postMessage(message: unknown, transfer: Transferable[]): void;
+  addEventListener(type: 'message', listener: (event: MessageEvent) => void): void;
+}
+
+interface Listener {
+  onProgress(part: number): void;
+  onWarning(warning: BakeWarning): void;
+}
+
+/**
+ * Answers questions on a port by `work`, whose transfer goes along with its answer, and says that it is ready. Never throws: errors go over
+ * the wire.
+ */
+export function answer<Question, Answer>(
+  port: WorkPort,
+  work: (
+    question: Question,
+    listener: Listener,
+  ) => Promise<{ readonly answer: Answer; readonly transfer: readonly ArrayBufferView[] }>,
+): void {
+  const reply = (message: WorkReply<Answer>, transfer: Transferable[] = []) => port.postMessage(message, transfer);
+  const listener: Listener = {
+    onProgress: (part) => reply({ type: 'progress', part }),
+    onWarning: (warning) => reply({ type: 'warning', warning }),
+  };
+  port.addEventListener('message', async ({ data }: MessageEvent<WorkRequest<Question>>) => {
+    if (data?.type !== 'work') return;
+    try {
+      const { answer, transfer } = await work(data.question, listener);
+      reply({ type: 'done', answer }, [...new Set(transfer.map(({ buffer }) => buffer as ArrayBuffer))]);
+    } catch (error) {
+      reply({ type: 'error', error: packError(error) });
+    }
+  });
+  reply({ type: 'ready' });
+}
+
+/** Options that can be posted; the rest act on the page's side. */
+export type PostedBakeOptions = Omit<BakeOptions, 'signal' | 'onProgress' | 'onWarning'>;
+
+export interface BakeQuestion {
+  readonly shape: BakeShape;
+  readonly options: PostedBakeOptions;
+}
+
+/** A mesh that was baked stays behind: the page has it. That of another shape comes along. */
+export type BakeAnswer = Omit<BodyData, 'mesh'> & Partial<Pick<BodyData, 'mesh'>>;
+
+/** Answers with what `bake` gives. */
+export function answerBake(port: WorkPort, bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>): void {
+  answer<BakeQuestion, BakeAnswer>(port, async ({ shape, options }, listener) => {
+    const { mesh, ...body } = await bake(shape, { ...options, ...listener });
+    const made = 'triangles' in shape ? undefined : mesh;
+    return {
+      answer: made ? { ...body, mesh: made } : body,
+      transfer: [body.voxels, body.centers, body.distances, body.spheres, ...(made ? [made.positions, made.triangles] : [])],
+    };
+  });
+}
