@@ -5,9 +5,10 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BakeOptions, BakeShape, BakeWarning, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import { answer, answerBake, type WorkPort } from '../../web/worker/answer.ts';
-import { bakeInWorker, type WeightsQuestion, weighInWorker } from '../../web/worker/index.ts';
+import { bakeInWorker } from '../../web/worker/index.ts';
 import { packError, unpackError } from '../../web/worker/messages.ts';
-import { weigh } from '../../web/worker/weigh.ts';
+import { type WeightsQuestion, weigh } from '../../web/worker/weigh.ts';
+import { weighInWorker } from '../../web/worker/weigh-in-worker.ts';
 import { boxMesh } from './support/shapes.ts';
 
 type Bake = (shape: BakeShape, options: BakeOptions) => Promise<BodyData>;
