@@ -432,7 +432,7 @@ describe('drawing', () => {
 
   it('a section runs where it says and finds the points on it', () => {
     const { p, in: frame, show } = stateOf('fig-20');
-    const line = sectionOf({ frame, show });
+    const line = sectionOf(frame, show.section, show.sectionAt);
     if (!line) throw new Error('there is no section');
     const placed = { points: p.places, values: p.values, frame };
     expect(pointsOn(line, placed).map(({ point }) => point)).toEqual([0, 2, 4]);
@@ -441,8 +441,7 @@ describe('drawing', () => {
     sectionSamples(line, queries, axis);
     expect([...queries]).toEqual([-3, -3, 0, 0, 3, 3]);
     expect([...axis]).toEqual([-3 * Math.SQRT2, 0, 3 * Math.SQRT2].map((at) => expect.closeTo(at, 9)));
-    const across = { ...show, section: 'across' as const, sectionAt: 1 };
-    expect(sectionOf({ frame, show: across })?.ends).toEqual([0, expect.closeTo(1 / 3, 9), 1, expect.closeTo(1 / 3, 9)]);
+    expect(sectionOf(frame, 'across', 1)?.ends).toEqual([0, expect.closeTo(1 / 3, 9), 1, expect.closeTo(1 / 3, 9)]);
     expect(roundRange([Float64Array.of(-0.37, 1)], 0, 1)).toEqual([-0.5, 1.5]);
   });
 });

@@ -1,5 +1,5 @@
 import { Vector3 } from 'three';
-import { h } from '../ui/dom.ts';
+import { button, h } from '../ui/dom.ts';
 import type { Point } from './live-body.ts';
 
 /** What the panel steers. */
@@ -23,16 +23,8 @@ export class BodyPanel {
   readonly #heading = h('h3', { id: 'chosen' });
   readonly #inputs: HTMLInputElement[];
   readonly #place: HTMLElement;
-  readonly #back = h(
-    'button',
-    { type: 'button', class: 'button', onclick: () => this.#scene.resetHandle(this.#scene.selected) },
-    'Put back',
-  );
-  readonly #remove = h(
-    'button',
-    { type: 'button', class: 'button', onclick: () => this.#scene.remove(this.#scene.selected) },
-    'Remove',
-  );
+  readonly #back = button('Put back', () => this.#scene.resetHandle(this.#scene.selected), 'button');
+  readonly #remove = button('Remove', () => this.#scene.remove(this.#scene.selected), 'button');
   readonly #digits: number;
 
   constructor(scene: Steerable, title: string, diagonal: number) {
@@ -69,8 +61,8 @@ export class BodyPanel {
       h(
         'div',
         { class: 'buttons panel-foot' },
-        h('button', { type: 'button', class: 'button', id: 'add-handle', onclick: () => scene.startPlacing() }, 'Add a handle'),
-        h('button', { type: 'button', class: 'button primary', id: 'reset', onclick: () => scene.reset() }, 'Reset'),
+        button('Add a handle', () => scene.startPlacing(), 'button', { id: 'add-handle' }),
+        button('Reset', () => scene.reset(), 'button primary', { id: 'reset' }),
       ),
     );
   }

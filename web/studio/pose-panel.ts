@@ -1,4 +1,4 @@
-import { h, readable } from '../ui/dom.ts';
+import { button, h, readable } from '../ui/dom.ts';
 import { steerSlider } from '../ui/slider.ts';
 import { Pad } from './pad.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
@@ -68,12 +68,7 @@ export class PosePanel {
         'section',
         { class: 'pad-section', 'aria-label': 'Place on the plane' },
         pad,
-        h(
-          'div',
-          { class: 'place-row' },
-          this.#place,
-          h('button', { type: 'button', class: 'button', id: 'reset', onclick: reset }, 'Reset'),
-        ),
+        h('div', { class: 'place-row' }, this.#place, button('Reset', reset, 'button', { id: 'reset' })),
         this.#spoken,
       ),
       this.#bars.element,

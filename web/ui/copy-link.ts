@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { button, h } from './dom.ts';
 
 /** Milliseconds for which the button says that it has copied. */
 const SAID = 2000;
@@ -43,7 +43,7 @@ function offer(link: string, closed: () => void): void {
       'div',
       { class: 'help-head' },
       h('p', {}, 'This browser does not let the page copy. Here is the link, selected: copy it with the keyboard or the menu.'),
-      h('button', { type: 'button', class: 'dismiss', 'aria-label': 'Close', onclick: close }, '×'),
+      button('×', close, 'dismiss', { 'aria-label': 'Close' }),
     ),
     field,
   );

@@ -15,7 +15,12 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** The same for SVG. */
+/** A button that does something; `kind`: its classes. */
+export function button(words: string, act: () => void, kind = 'button small', attributes: Attributes = {}): HTMLButtonElement {
+  return h('button', { type: 'button', class: kind, ...attributes, onclick: act }, words);
+}
+
+/** `h`, for SVG. */
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},

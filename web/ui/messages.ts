@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { button, h } from './dom.ts';
 import { explain } from './explain.ts';
 
 /** The page's one place for what went wrong: a sentence, what to do about it, and the code in small type. */
@@ -22,11 +22,7 @@ export class Messages {
     };
     const style = 'margin-block-start: var(--gap-2)';
     if (again) text.append(h('button', { type: 'button', class: 'button', style, onclick: retry }, 'Try again'));
-    const dismiss = h(
-      'button',
-      { type: 'button', class: 'dismiss', 'aria-label': 'Dismiss this message', onclick: () => this.#dismiss() },
-      '×',
-    );
+    const dismiss = button('×', () => this.#dismiss(), 'dismiss', { 'aria-label': 'Dismiss this message' });
     const card = h('div', { class: 'message' }, text, dismiss);
     card.addEventListener('keydown', (event) => event.key === 'Escape' && this.#dismiss());
     this.#area.replaceChildren(card);

@@ -1,4 +1,4 @@
-import { h } from './dom.ts';
+import { button, h } from './dom.ts';
 import { explain } from './explain.ts';
 
 /** A page's one line for what went wrong: a sentence, what to do about it and, where that may help, a button that tries again. */
@@ -18,8 +18,8 @@ export class Trouble {
       this.clear();
       then?.();
     };
-    const retry = again && h('button', { type: 'button', class: 'button small', onclick: act(again) }, 'Try again');
-    const dismiss = h('button', { type: 'button', class: 'dismiss', 'aria-label': 'Dismiss this message', onclick: act() }, '×');
+    const retry = again && button('Try again', act(again));
+    const dismiss = button('×', act(), 'dismiss', { 'aria-label': 'Dismiss this message' });
     this.#area.replaceChildren(h('span', {}, `${message} ${remedy}`), ...(retry ? [retry] : []), dismiss);
     this.#area.dataset.code = detail;
     this.#area.hidden = false;

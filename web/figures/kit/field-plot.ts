@@ -111,7 +111,7 @@ class FieldPlot<M, S> implements OpenPanel<M, S> {
     const { values } = this.#points.set;
     const { picked, outliers } = this.#points;
     const weight = weightOf?.(state) ?? -1;
-    const line = sectionOf({ frame, show: { section: section?.(state) ?? 'off', sectionAt: sectionAt?.(state) ?? 0 } });
+    const line = sectionOf(frame, section?.(state) ?? 'off', sectionAt?.(state) ?? 0);
     while (this.#panels.length > list.length) this.#panels.pop()?.dispose();
     while (this.#panels.length < list.length) this.#add();
     this.#maps.dataset.count = String(list.length);

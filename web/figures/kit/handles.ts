@@ -32,8 +32,6 @@ export interface PointActions {
   remove(i: number): void;
   /** "Point 3, x 2.5, value 0.4" */
   describe(i: number): string;
-  /** A drag or a keystroke is over. */
-  settle(): void;
 }
 
 const STEP = 0.01;
@@ -113,7 +111,6 @@ export class Handles {
         // The last handle goes with the next frame.
         focusNeighbor(this.#handles.slice(0, actions.count), i);
       },
-      settle: () => actions.settle(),
     };
   }
 }

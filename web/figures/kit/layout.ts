@@ -1,4 +1,4 @@
-import { h } from '../../ui/dom.ts';
+import { button, h } from '../../ui/dom.ts';
 import { Progress } from '../../ui/progress.ts';
 import { Trouble } from '../../ui/trouble.ts';
 import type { AnyFigure, Panel, Told } from './figure.ts';
@@ -47,17 +47,15 @@ export class Layout {
 
   constructor(figure: AnyFigure, controls: HTMLElement, panels: (place: Place) => readonly HTMLElement[], wishes: Wishes) {
     const { presets, sides, heading, thumbnail } = figure;
-    const button = (name: string, act: () => void, quiet = ' quiet') =>
-      h('button', { type: 'button', class: `button small${quiet}`, onclick: act }, h('span', {}, name));
-    this.#presets = new Map(presets.map(({ id, name }) => [id, button(name, () => wishes.begin(id), '')]));
+    this.#presets = new Map(presets.map(({ id, name }) => [id, button(name, () => wishes.begin(id))]));
     const row = h('div', { class: 'presets', role: 'group', 'aria-label': 'Presets' }, ...this.#presets.values());
     row.toggleAttribute('data-film', thumbnail !== undefined);
     const tools = h(
       'div',
       { class: 'tools' },
-      button('Reset', wishes.reset),
-      button('SVG', () => wishes.save('svg')),
-      button('PNG', () => wishes.save('png')),
+      button('Reset', wishes.reset, 'button small quiet'),
+      button('SVG', () => wishes.save('svg'), 'button small quiet'),
+      button('PNG', () => wishes.save('png'), 'button small quiet'),
     );
     const name = `sides-${nextSides++}`;
     const inputs = (sides?.options ?? []).map((_, side) =>

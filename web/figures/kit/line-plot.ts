@@ -234,7 +234,6 @@ class LinePlot<M, S> {
       addAt: () => {},
       remove: () => {},
       describe: (i) => list()[i]?.name ?? '',
-      settle: () => {},
     };
   }
 

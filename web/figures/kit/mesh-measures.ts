@@ -1,12 +1,8 @@
+import { Box3, Vector3 } from 'three';
+
 /** Of a box around points in space, from corner to corner. */
 export function diagonalOf(positions: ArrayLike<number>): number {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < positions.length; i++) {
-    low[i % 3] = Math.min(low[i % 3] as number, positions[i] as number);
-    high[i % 3] = Math.max(high[i % 3] as number, positions[i] as number);
-  }
-  return Math.hypot(...high.map((x, axis) => x - (low[axis] as number)));
+  return new Box3().setFromArray(positions).getSize(new Vector3()).length();
 }
 
 /** What a closed surface encloses. */

@@ -1,6 +1,6 @@
 import { simplify, withoutRepeats } from '../../models/resample.ts';
 import { centered, checkShape, type Shape } from '../../models/shape.ts';
-import { h, svg } from '../../ui/dom.ts';
+import { button, h, svg } from '../../ui/dom.ts';
 import { lazy } from '../../ui/lazy.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { portable } from './outline.ts';
@@ -62,12 +62,8 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
         h(
           'div',
           { class: 'own-buttons' },
-          h(
-            'button',
-            { type: 'button', class: 'button small', id: 'open', onclick: () => this.#file.click() },
-            'Open a PNG or SVG',
-          ),
-          h('button', { type: 'button', class: 'button small', onclick: () => this.#cancel() }, 'Cancel'),
+          button('Open a PNG or SVG', () => this.#file.click(), 'button small', { id: 'open' }),
+          button('Cancel', () => this.#cancel()),
         ),
         h(
           'details',
@@ -75,11 +71,7 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
           h('summary', {}, 'Type it instead'),
           h('p', { class: 'soft' }, 'x and y of a point on each line; an empty line begins a hole.'),
           this.#typed,
-          h(
-            'button',
-            { type: 'button', class: 'button small', id: 'use-typed', onclick: () => this.#takeTyped() },
-            'Use these points',
-          ),
+          button('Use these points', () => this.#takeTyped(), 'button small', { id: 'use-typed' }),
         ),
       ),
       this.#file,

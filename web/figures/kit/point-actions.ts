@@ -101,7 +101,6 @@ export function pointActions<M, S>(kit: Kit<S, M>, frame: (state: S) => Frame, o
       const words = outliers().includes(i) ? ', stands out' : '';
       return `Point ${i}, ${coordinates.join(', ')}, value ${readable(values[i] ?? 0)}${words}`;
     },
-    settle: () => {},
   };
   return actions;
 }

@@ -15,46 +15,22 @@ export interface Line {
   readonly title: string;
 }
 
-export function sectionOf({
-  frame,
-  show,
-}: {
-  readonly frame: Frame;
-  readonly show: { readonly section: SectionKind; readonly sectionAt: number };
-}): Line | undefined {
-  const [left, right, bottom, top] = frame;
-  const at = show.sectionAt;
-  if (show.section === 'across') {
-    const part = (top - at) / (top - bottom);
-    return {
-      ends: [0, part, 1, part],
-      from: [left, at],
-      to: [right, at],
-      along: [left, right],
-      title: 'Section from left to right',
-    };
+export function sectionOf([left, right, bottom, top]: Frame, kind: SectionKind, at: number): Line | undefined {
+  const half = Math.hypot(right - left, top - bottom) / 2;
+  const line = (title: string, from: Line['from'], to: Line['to'], along: Line['along']): Line => {
+    const part = ([x, y]: Line['from']) => [(x - left) / (right - left), (top - y) / (top - bottom)] as const;
+    return { title, from, to, along, ends: [...part(from), ...part(to)] };
+  };
+  switch (kind) {
+    case 'across':
+      return line('Section from left to right', [left, at], [right, at], [left, right]);
+    case 'up':
+      return line('Section from below to above', [at, bottom], [at, top], [bottom, top]);
+    case 'diagonal':
+      return line('Section along the diagonal', [left, bottom], [right, top], [-half, half]);
+    case 'off':
+      return undefined;
   }
-  if (show.section === 'up') {
-    const part = (at - left) / (right - left);
-    return {
-      ends: [part, 1, part, 0],
-      from: [at, bottom],
-      to: [at, top],
-      along: [bottom, top],
-      title: 'Section from below to above',
-    };
-  }
-  if (show.section === 'diagonal') {
-    const half = Math.hypot(right - left, top - bottom) / 2;
-    return {
-      ends: [0, 1, 1, 0],
-      from: [left, bottom],
-      to: [right, top],
-      along: [-half, half],
-      title: 'Section along the diagonal',
-    };
-  }
-  return undefined;
 }
 
 /** Places on a section, count × 2, and where they are on its axis. */

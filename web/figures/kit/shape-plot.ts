@@ -1,6 +1,6 @@
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
-import { h } from '../../ui/dom.ts';
+import { button, h } from '../../ui/dom.ts';
 import { PageError } from '../../ui/page-error.ts';
 import { onPaper, onScreenChange } from '../../ui/screen.ts';
 import { ColorMap } from './color-map.ts';
@@ -57,11 +57,10 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
       note.hidden = words === '';
     };
     this.#picture = new ShapePicture(say, () => kit.redraw());
-    const tool = (name: string, act: () => void) => h('button', { type: 'button', class: 'button small', onclick: act }, name);
-    const adds = tool('Add a point', () => this.#add(({ mesh, handles }) => point(...emptiest(mesh, handles))));
+    const adds = button('Add a point', () => this.#add(({ mesh, handles }) => point(...emptiest(mesh, handles))));
     this.#handles = new ShapeHandles(this.#picture, adds);
-    this.#remove = tool('Remove', () => this.#handles.remove(this.#handles.held.picked));
-    this.#rest = tool('Rest pose', () => {
+    this.#remove = button('Remove', () => this.#handles.remove(this.#handles.held.picked));
+    this.#rest = button('Rest pose', () => {
       const rest = this.#handles.held.handles.map(resting);
       struck.add(rest);
       this.#handles.held.change(rest, this.#handles.held.picked);
@@ -72,7 +71,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
       'div',
       { class: 'tools' },
       adds,
-      tool('Add a bone', () => this.#add(({ outline, mesh, handles }) => boneIn(outline, emptiest(mesh, handles)))),
+      button('Add a bone', () => this.#add(({ outline, mesh, handles }) => boneIn(outline, emptiest(mesh, handles)))),
       this.#remove,
       this.#rest,
     );

@@ -1,4 +1,4 @@
-import { h, write } from '../../../ui/dom.ts';
+import { button, h, write } from '../../../ui/dom.ts';
 import { type PartShown, partControls } from '../../kit/controls.ts';
 import { swatch } from '../../kit/swatch.ts';
 import { brief, conditionText, health } from '../../kit/words.ts';
@@ -56,10 +56,9 @@ export class Card {
     const id = `card-${nextId++}`;
     this.#body = h('div', { class: 'card-body', id, hidden: !open }, this.#controls.element, this.#weights.element);
 
-    const toggle = () => this.open(this.#body.hidden);
-    this.#toggle = h('button', { type: 'button', class: 'dismiss chevron', 'aria-controls': id, onclick: toggle });
+    this.#toggle = button('', () => this.open(this.#body.hidden), 'dismiss chevron', { 'aria-controls': id });
     this.#toggle.ariaExpanded = String(open);
-    this.#remove = h('button', { type: 'button', class: 'dismiss', onclick: () => actions.remove(key) }, '×');
+    this.#remove = button('×', () => actions.remove(key), 'dismiss');
     const head = h(
       'div',
       { class: 'card-head' },

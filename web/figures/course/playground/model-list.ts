@@ -1,4 +1,4 @@
-import { h } from '../../../ui/dom.ts';
+import { button, h } from '../../../ui/dom.ts';
 import { focusNeighbor } from '../../../ui/focus.ts';
 import { PageError } from '../../../ui/page-error.ts';
 import type { Kit, OpenPanel } from '../../kit/figure.ts';
@@ -90,9 +90,7 @@ export class ModelList implements OpenPanel<Fits, State> {
           h(
             'div',
             { class: 'tools' },
-            ...offers.map(({ kind, settings, name }) =>
-              h('button', { type: 'button', class: 'button small', onclick: () => this.#choose(kind, settings) }, name),
-            ),
+            ...offers.map(({ kind, settings, name }) => button(name, () => this.#choose(kind, settings))),
           ),
         ),
       ),

@@ -1,5 +1,5 @@
 import { computable } from '../../../ui/address.ts';
-import { h, match } from '../../../ui/dom.ts';
+import { button, h, match } from '../../../ui/dom.ts';
 import { focusNeighbor } from '../../../ui/focus.ts';
 import type { Kit, OpenPanel } from '../../kit/figure.ts';
 import type { PointEditing } from '../../kit/point-actions.ts';
@@ -19,7 +19,7 @@ export class PointTable implements OpenPanel<unknown, State> {
   /** `add` adds a point where there are fewest. */
   constructor(kit: Kit<State>, actions: PointEditing, add: () => void) {
     [this.#kit, this.#actions] = [kit, actions];
-    this.#add = h('button', { type: 'button', class: 'button', onclick: add }, 'Add a point');
+    this.#add = button('Add a point', add, 'button');
     this.element = h(
       'details',
       { class: 'points-part' },
@@ -84,7 +84,7 @@ export class PointTable implements OpenPanel<unknown, State> {
       this.#update();
       focusNeighbor(this.#body.querySelectorAll('button'), i, this.#add);
     };
-    const remove = h('button', { type: 'button', class: 'dismiss', 'aria-label': `Remove point ${i}`, onclick: act }, '×');
+    const remove = button('×', act, 'dismiss', { 'aria-label': `Remove point ${i}` });
     return h('tr', {}, h('th', { scope: 'row' }, String(i)), ...cells, h('td', {}, remove));
   }
 

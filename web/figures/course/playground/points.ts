@@ -1,4 +1,4 @@
-import { h } from '../../../ui/dom.ts';
+import { button, h } from '../../../ui/dom.ts';
 import type { Kit, OpenPanel } from '../../kit/figure.ts';
 import { type PointEditing, type PointOptions, pointActions } from '../../kit/point-actions.ts';
 import { MOST_POINTS, tidy } from '../../kit/point-set.ts';
@@ -40,7 +40,6 @@ export function tableOf(kit: Kit<State, Fits>): OpenPanel<Fits, State> {
 /** Buttons that add a point, remove the chosen one, and bring all into view. */
 export function toolsOf(kit: Kit<State, Fits>): OpenPanel<Fits, State> {
   const { actions, add } = editing(kit);
-  const button = (words: string, onclick: () => void) => h('button', { type: 'button', class: 'button small', onclick }, words);
   const adds = button('Add a point', add);
   const removes = button('Remove', () => {
     const { picked, count } = actions;

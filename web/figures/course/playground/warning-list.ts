@@ -1,5 +1,5 @@
 import type { RbfWarning } from '../../../../wasm/ts/runtime.ts';
-import { h, match, write } from '../../../ui/dom.ts';
+import { button, h, match, write } from '../../../ui/dom.ts';
 import { explain } from '../../../ui/explain.ts';
 import { focusNeighbor } from '../../../ui/focus.ts';
 import { brief } from '../../kit/words.ts';
@@ -68,14 +68,13 @@ export class WarningList {
     const [sentence, advice, row] = [h('p', { class: 'sentence' }), h('p', { class: 'remedy' }), h('div', { class: 'tools' })];
     const element = h('div', { class: 'warning', 'data-code': code }, sentence, advice, row);
     let current: readonly Remedy[] = [];
-    const button = (i: number) =>
-      h('button', { type: 'button', class: 'button small', onclick: () => current[i] && this.#apply(current[i].settings) });
+    const remedyButton = (i: number) => button('', () => current[i] && this.#apply(current[i].settings));
     const show = ({ message, remedy, remedies }: Told) => {
       current = remedies;
       write(sentence, message);
       write(advice, remedy);
       row.hidden = remedies.length === 0;
-      match(row, remedies.length, button);
+      match(row, remedies.length, remedyButton);
       remedies.forEach(({ words }, i) => {
         write(row.children[i] as Element, words);
       });

@@ -1,10 +1,11 @@
-import type { Handlebody } from '../../../../wasm/ts/index.ts';
+import type { DualQuaternion, EnergyMinimizer, Handlebody, LinearBlend } from '../../../../wasm/ts/index.ts';
 import type { PlaneMesh } from '../../../models/mesh-shape.ts';
 import { type Handle, writeTransforms } from '../../kit/plane-handles.ts';
-import { solveWeights, type Weights, type WeightsKind } from '../../kit/plane-weights.ts';
+import { solveWeights, type Weights, type WeightsKind, weightHandle } from '../../kit/plane-weights.ts';
 import type { DistanceKind, EnergyKind, Method, MethodId } from './methods.ts';
-import { weightsOf } from './methods.ts';
-import { type Deformation, energyMinimizer, linearBlend, rigidBlend } from './solver.ts';
+
+/** The most rounds of the rigid energy in a frame; the next frame goes on from there. */
+const ROUNDS = 8;
 
 /** What interior radial basis functions need: made on demand, on another thread. */
 export interface SlabDeformation {
@@ -22,7 +23,7 @@ export class Deformer {
   readonly #weights = new Map<WeightsKind, Weights>();
   /** Weights that have seen the handles as they are. */
   readonly #fresh = new Set<WeightsKind>();
-  readonly #deformations = new Map<MethodId, Deformation>();
+  readonly #deformations = new Map<MethodId, LinearBlend | DualQuaternion | EnergyMinimizer>();
   readonly #slabs = new Map<DistanceKind, SlabDeformation>();
   readonly #freshSlabs = new Set<DistanceKind>();
   #finishing: AbortController | undefined;
@@ -127,7 +128,9 @@ export class Deformer {
     const deformation = this.#deformations.get(method.id) ?? this.#make(method);
     this.#deformations.set(method.id, deformation);
     writeTransforms(handles, deformation.transforms);
-    return deformation.deform(out);
+    const report = deformation.deform(out);
+    // Rounds that were not all needed have converged; blending is done in one go.
+    return 'iterations' in report && report.iterations === ROUNDS;
   }
 
   dispose(): void {
@@ -138,10 +141,13 @@ export class Deformer {
     this.#slabs.clear();
   }
 
-  #make(method: Method): Deformation {
-    const kind = weightsOf(method);
-    if (!kind) return energyMinimizer(this.hb, this.mesh, this.#handles, method.kind as EnergyKind);
-    const { weights } = this.weights(kind);
-    return method.family === 'rigid' ? rigidBlend(this.hb, this.mesh, weights) : linearBlend(this.hb, this.mesh, weights);
+  #make({ family, kind }: Method): LinearBlend | DualQuaternion | EnergyMinimizer {
+    const { hb, mesh } = this;
+    if (family === 'energy') {
+      const options = { energy: kind as EnergyKind, iterations: ROUNDS };
+      return hb.minimizeEnergy({ ...mesh, dimension: 2 }, this.#handles.map(weightHandle), options);
+    }
+    const skin = { dimension: 2, positions: mesh.positions, weights: this.weights(kind as WeightsKind).weights } as const;
+    return family === 'rigid' ? hb.dualQuaternion(skin) : hb.linearBlend(skin);
   }
 }

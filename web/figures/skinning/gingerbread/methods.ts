@@ -56,29 +56,17 @@ const DISTANCES: readonly (readonly [DistanceKind, string, string])[] = [
 
 const SAID = new Map<string, string>([...WEIGHTS, ...ENERGIES, ...DISTANCES].map(([kind, , said]) => [kind, said]));
 
+const of = <K extends Method['kind']>(
+  family: Family,
+  kinds: readonly (readonly [K, string, string])[],
+  title: (name: string, kind: K) => string,
+): Method[] => kinds.map(([kind, name]) => ({ id: `${family}-${kind}` as MethodId, family, kind, name, title: title(name, kind) }));
+
 export const METHODS: readonly Method[] = [
-  ...WEIGHTS.map(([kind, name]) => ({
-    id: `linear-${kind}` as const,
-    family: 'linear' as const,
-    kind,
-    name,
-    title: `${name}, linear`,
-  })),
-  ...WEIGHTS.map(([kind, name]) => ({
-    id: `rigid-${kind}` as const,
-    family: 'rigid' as const,
-    kind,
-    name,
-    title: `${name}, rigid`,
-  })),
-  ...ENERGIES.map(([kind, name]) => ({ id: `energy-${kind}` as const, family: 'energy' as const, kind, name, title: name })),
-  ...DISTANCES.map(([kind, name]) => ({
-    id: `irbf-${kind}` as const,
-    family: 'irbf' as const,
-    kind,
-    name,
-    title: `IRBF, ${kind === 'interior' ? kind : 'Euclidean'}`,
-  })),
+  ...of('linear', WEIGHTS, (name) => `${name}, linear`),
+  ...of('rigid', WEIGHTS, (name) => `${name}, rigid`),
+  ...of('energy', ENERGIES, (name) => name),
+  ...of('irbf', DISTANCES, (_, kind) => `IRBF, ${kind === 'interior' ? kind : 'Euclidean'}`),
 ];
 
 export const WEIGHTS_KINDS: readonly WeightsKind[] = WEIGHTS.map(([kind]) => kind);

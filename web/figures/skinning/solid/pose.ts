@@ -1,3 +1,4 @@
+import { Euler, MathUtils, Matrix4 } from 'three';
 import type { Vec3 } from '../../../../wasm/ts/types.ts';
 import type { Channel } from '../../kit/channel.ts';
 
@@ -36,18 +37,17 @@ export function posesOf(handles: number): Channel<Poses> {
   };
 }
 
+const [turn, back, angles] = [new Matrix4(), new Matrix4(), new Euler()];
+
 /** Writes the 3×4 matrix of a pose about a center: rotation about z after y after x. */
 export function writeTransform(pose: Pose, center: Vec3, diagonal: number, out: Float64Array, at: number): void {
-  const [a, b, c] = pose.map((degrees) => (degrees * Math.PI) / 180) as [number, number, number];
-  const [ca, sa, cb, sb, cc, sc] = [Math.cos(a), Math.sin(a), Math.cos(b), Math.sin(b), Math.cos(c), Math.sin(c)];
-  const rotation = [
-    [cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa],
-    [sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa],
-    [-sb, cb * sa, cb * ca],
-  ] as const;
-  rotation.forEach((row, i) => {
-    out.set(row, at + 4 * i);
-    const moved = row[0] * center[0] + row[1] * center[1] + row[2] * center[2];
-    out[at + 4 * i + 3] = (center[i] as number) - moved + (pose[3 + i] as number) * diagonal;
-  });
+  const [a, b, c] = pose.map(MathUtils.degToRad) as [number, number, number];
+  const [x, y, z] = center.map((place, i) => place + (pose[3 + i] as number) * diagonal) as [number, number, number];
+  back.makeTranslation(-center[0], -center[1], -center[2]);
+  turn
+    .makeRotationFromEuler(angles.set(a, b, c, 'ZYX'))
+    .setPosition(x, y, z)
+    .multiply(back);
+  // three.js goes down the columns.
+  for (let i = 0; i < 12; i++) out[at + i] = turn.elements[4 * (i % 4) + Math.floor(i / 4)] as number;
 }
