@@ -64,7 +64,12 @@ export function partControls<S>(
   const rare = of(true);
   if (rare.length > 0)
     element.append(
-      h('details', { class: 'more' }, h('summary', {}, 'More settings'), h('div', { class: 'more-controls' }, ...rare)),
+      h(
+        'details',
+        { class: 'more' },
+        h('summary', { class: 'soft' }, 'More settings'),
+        h('div', { class: 'more-controls stack' }, ...rare),
+      ),
     );
   const show = (state: S) => {
     for (const control of controls) control.show(state);

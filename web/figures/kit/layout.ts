@@ -28,8 +28,8 @@ export function bringIntoRow(element: HTMLElement): void {
 
 /** A figure's elements: its words, its presets, and where its panels and controls lie. */
 export class Layout {
-  readonly element = h('section', { class: 'figure' });
-  readonly pictures = h('div', { class: 'panels' });
+  readonly element = h('section', { class: 'figure stack' });
+  readonly pictures = h('div', { class: 'panels stack' });
   readonly #said = h('p', { class: 'trouble', role: 'alert', hidden: true });
   readonly trouble = new Trouble(this.#said, () => this.element.querySelector('button'));
   readonly #notice = h('p', { class: 'notice', role: 'status', hidden: true });
@@ -66,13 +66,13 @@ export class Layout {
     const choice = h('fieldset', { class: 'segmented' }, h('legend', { class: 'unseen' }, sides?.label ?? ''), ...labels);
     this.pictures.append(...panels(undefined));
     const foot = h('div', { class: 'figure-foot' }, row, tools);
-    const stage = h('div', { class: 'figure-stage' }, this.pictures, this.busy, this.#caption, foot);
+    const stage = h('div', { class: 'figure-stage stack' }, this.pictures, this.busy, this.#caption, foot);
     const beside = [...panels('above'), ...(heading ? [h('h3', {}, heading)] : []), controls, ...panels('below'), this.#facts];
     this.element.append(
       h('div', { class: 'figure-head' }, this.#title, ...(sides ? [choice] : []), h('div', { class: 'tools' }, ...panels('tools'))),
       this.#said,
       this.#notice,
-      h('div', { class: 'figure-body' }, stage, h('div', { class: 'controls' }, ...beside)),
+      h('div', { class: 'figure-body' }, stage, h('div', { class: 'controls stack' }, ...beside)),
       this.#spoken,
     );
   }

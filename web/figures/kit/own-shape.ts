@@ -57,11 +57,11 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
       sheet,
       h(
         'div',
-        { class: 'own-words' },
+        { class: 'own-words stack' },
         h('p', {}, h('strong', {}, 'Draw an outline here, in one stroke.'), ' It closes by itself.'),
         h(
           'div',
-          { class: 'own-buttons' },
+          { class: 'tools' },
           button('Open a PNG or SVG', () => this.#file.click(), 'button small', { id: 'open' }),
           button('Cancel', () => this.#cancel()),
         ),

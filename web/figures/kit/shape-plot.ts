@@ -75,7 +75,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
       this.#remove,
       this.#rest,
     );
-    this.element = h('div', { class: 'shape-panel' }, tools, this.#area);
+    this.element = h('div', { class: 'shape-panel stack' }, tools, this.#area);
     this.#handles.element.addEventListener('dblclick', (event) => this.#addAt(event));
     const { signal } = this.#left;
     onScreenChange(this.#area, () => kit.redraw(), signal);

@@ -46,7 +46,7 @@ class StagePlot<M, S> implements OpenPanel<M, S> {
     const { title, legend } = options;
     this.element = h(
       'div',
-      { class: 'stage-panel' },
+      { class: 'stage-panel stack' },
       ...(title ? [h('h3', { class: 'chart-title' }, title)] : []),
       this.#stage.element,
       ...(legend ? [ramp(legend)] : []),
@@ -198,5 +198,5 @@ class Stage<S> {
 function ramp(words: string): HTMLElement {
   const colors = h('div', {});
   colors.style.background = new ColorMap('viridis', 0, 1).gradient;
-  return h('div', { class: 'ramp' }, h('span', {}, `${words}: 0`), colors, '1');
+  return h('div', { class: 'ramp soft' }, h('span', {}, `${words}: 0`), colors, '1');
 }

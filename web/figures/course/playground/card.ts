@@ -23,9 +23,9 @@ export class Card {
   readonly element: HTMLElement;
   readonly fit: Fit;
   readonly #name = h('span', { class: 'name' });
-  readonly #detail = h('span', { class: 'detail' });
+  readonly #detail = h('span', { class: 'detail soft' });
   readonly #shown: HTMLInputElement;
-  readonly #verdict = h('p', { class: 'verdict' });
+  readonly #verdict = h('p', { class: 'verdict soft' });
   readonly #condition = h('span', { class: 'condition' });
   readonly #misfit = h('span');
   readonly #controls: PartShown<Settings>;
@@ -54,7 +54,7 @@ export class Card {
     this.#verdict.append(this.#condition, this.#misfit);
 
     const id = `card-${nextId++}`;
-    this.#body = h('div', { class: 'card-body', id, hidden: !open }, this.#controls.element, this.#weights.element);
+    this.#body = h('div', { class: 'card-body stack', id, hidden: !open }, this.#controls.element, this.#weights.element);
 
     this.#toggle = button('', () => this.open(this.#body.hidden), 'dismiss chevron', { 'aria-controls': id });
     this.#toggle.ariaExpanded = String(open);

@@ -12,7 +12,7 @@ import { isOffered, kindOf, modelOf, OFFERS } from './interpolants.ts';
 export class ModelList implements OpenPanel<Fits, State> {
   readonly element: HTMLElement;
   readonly #list = h('ul', { class: 'cards' });
-  readonly #menu = h('div', { class: 'offers' });
+  readonly #menu = h('div', { class: 'offers stack' });
   readonly #add: HTMLDetailsElement;
   readonly #kit: Kit<State>;
   readonly #cards = new Map<number, Card>();
@@ -28,7 +28,13 @@ export class ModelList implements OpenPanel<Fits, State> {
       this.#add.open = false;
       this.#add.querySelector('summary')?.focus();
     });
-    this.element = h('section', { 'aria-label': 'Interpolants' }, h('h3', {}, 'Interpolants'), this.#list, this.#add);
+    this.element = h(
+      'section',
+      { class: 'stack', 'aria-label': 'Interpolants' },
+      h('h3', {}, 'Interpolants'),
+      this.#list,
+      this.#add,
+    );
   }
 
   draw({ list }: Fits, state: State): void {
@@ -86,7 +92,7 @@ export class ModelList implements OpenPanel<Fits, State> {
         h(
           'div',
           { role: 'group', 'aria-label': group },
-          h('h4', {}, group),
+          h('h4', { class: 'soft' }, group),
           h(
             'div',
             { class: 'tools' },

@@ -22,7 +22,7 @@ export class PointTable implements OpenPanel<unknown, State> {
     this.#add = button('Add a point', add, 'button');
     this.element = h(
       'details',
-      { class: 'points-part' },
+      { class: 'points-part stack' },
       h('summary', {}, h('h3', {}, 'Points as numbers')),
       h('table', { class: 'points-table' }, h('thead', {}, this.#head), this.#body),
       this.#add,

@@ -4,7 +4,7 @@ import { brief } from '../../kit/words.ts';
 /** The weights of a fit's kernels as bars around zero, in the largest one's scale. */
 export class WeightList {
   readonly #rows = h('div', { class: 'weight-rows' });
-  readonly element = h('div', { hidden: true }, h('h4', {}, 'Weights of the kernels'), this.#rows);
+  readonly element = h('div', { hidden: true }, h('h4', { class: 'soft' }, 'Weights of the kernels'), this.#rows);
 
   show(weights: Float64Array | undefined): void {
     this.element.hidden = !weights;

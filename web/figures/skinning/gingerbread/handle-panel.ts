@@ -44,13 +44,13 @@ export const handlePanel: Panel<Bent, State> = {
         onchange: () => put(set, input.valueAsNumber),
         onblur: () => kit.redraw(),
       });
-      return { label: h('label', { class: 'number' }, h('span', {}, label), input), input, read };
+      return { label: h('label', { class: 'number' }, h('span', { class: 'soft' }, label), input), input, read };
     });
     const labels = fields.map(({ label }) => label);
     const none = h('p', { class: 'soft' }, 'There is no handle. Add a point or a bone.');
     const body = h(
       'div',
-      { class: 'handle-body' },
+      { class: 'handle-body stack' },
       h('div', { class: 'control' }, h('label', { for: 'which' }, 'Handle'), which),
       h('div', { class: 'control' }, h('label', { for: 'turn' }, 'Turn'), turn),
       h('div', { class: 'numbers' }, ...labels.slice(0, 3)),
@@ -58,7 +58,13 @@ export const handlePanel: Panel<Bent, State> = {
     );
     let kinds = '?';
     return {
-      element: h('section', { 'aria-labelledby': 'handle-title' }, h('h3', { id: 'handle-title' }, 'Picked handle'), none, body),
+      element: h(
+        'section',
+        { class: 'stack', 'aria-labelledby': 'handle-title' },
+        h('h3', { id: 'handle-title' }, 'Picked handle'),
+        none,
+        body,
+      ),
       draw: (bent, state) => {
         handles = bent.handles(state);
         none.hidden = handles.length > 0;

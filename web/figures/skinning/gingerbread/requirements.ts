@@ -70,7 +70,7 @@ export const requirements: Panel<Bent, State> = {
     );
     const element = h(
       'section',
-      { 'aria-labelledby': 'requirements-title', class: 'requirements' },
+      { 'aria-labelledby': 'requirements-title', class: 'requirements stack' },
       h('h3', { id: 'requirements-title' }, 'What weights should be'),
       h('table', {}, h('thead', {}, h('tr', {}, h('td'), ...columns.map(({ head }) => head))), h('tbody', {}, ...rows)),
       h(
