@@ -327,7 +327,7 @@ describe('skinning-1', () => {
     await page.locator('.choices input[value=own]').check();
     await page.locator('.own summary').click();
     await page.locator('.own textarea').fill('0 0\n4 0\n4 1\n0 1');
-    await page.locator('#use-typed').click();
+    await page.getByRole('button', { name: 'Use these points' }).click();
     await settled(page);
     expect(await told(page)).toMatchObject({ handles: 4 });
     expect(new URL(page.url()).hash).toMatch(/^#skinning-1&v1&from=points&o=/);

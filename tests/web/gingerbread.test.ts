@@ -273,7 +273,7 @@ describe('handles', () => {
 
   it('are typed as numbers; one that would sit outside is told in a sentence, the picture stays', async () => {
     const { page } = await bend(browser, '#shape=man&v=600&h=p:0,0.62~p:0.72,0.16~p:0,-0.1');
-    await page.locator('#which').selectOption('1');
+    await page.getByRole('combobox', { name: 'Handle' }).selectOption('1');
     const box = (name: string) => page.locator('.number', { hasText: name }).locator('input');
     await box('Turn °').fill('90');
     await box('Turn °').press('Enter');

@@ -23,7 +23,7 @@ const found: Panel<Fits, State> = {
     const draw = ({ found }: Fits) => {
       element.textContent = outlierText(found);
     };
-    return { element, draw, dispose: () => element.remove() };
+    return { element, draw };
   },
 };
 

@@ -56,7 +56,7 @@ export interface OpenPanel<M, S> {
   draw(made: M, state: S): void;
   /** Draws again as well as it can: nothing has changed for a while. */
   refine?(made: M, state: S): void;
-  dispose(): void;
+  dispose?(): void;
 }
 
 /** A name, and a number or a sentence. */

@@ -1,10 +1,9 @@
 import { button, h } from '../../ui/dom.ts';
 import { Progress } from '../../ui/progress.ts';
 import { Trouble } from '../../ui/trouble.ts';
-import type { AnyFigure, Panel, Told } from './figure.ts';
+import type { AnyFigure, Told } from './figure.ts';
+import type { Panels } from './panels.ts';
 import { brief } from './words.ts';
-
-type Place = Panel<never, never>['place'];
 
 /** What somebody can ask for beside the controls. */
 interface Wishes {
@@ -45,7 +44,7 @@ export class Layout {
   readonly #sides: readonly HTMLInputElement[];
   #chosen = '';
 
-  constructor(figure: AnyFigure, controls: HTMLElement, panels: (place: Place) => readonly HTMLElement[], wishes: Wishes) {
+  constructor(figure: AnyFigure, controls: HTMLElement, panels: Pick<Panels<never, never>, 'at'>, wishes: Wishes) {
     const { presets, sides, heading, thumbnail } = figure;
     this.#presets = new Map(presets.map(({ id, name }) => [id, button(name, () => wishes.begin(id))]));
     const row = h('div', { class: 'presets', role: 'group', 'aria-label': 'Presets' }, ...this.#presets.values());
@@ -64,12 +63,24 @@ export class Layout {
     this.#sides = inputs;
     const labels = inputs.map((input, i) => h('label', {}, input, h('span', {}, sides?.options[i]?.[0] ?? '')));
     const choice = h('fieldset', { class: 'segmented' }, h('legend', { class: 'unseen' }, sides?.label ?? ''), ...labels);
-    this.pictures.append(...panels(undefined));
+    this.pictures.append(...panels.at(undefined));
     const foot = h('div', { class: 'figure-foot' }, row, tools);
     const stage = h('div', { class: 'figure-stage stack' }, this.pictures, this.busy, this.#caption, foot);
-    const beside = [...panels('above'), ...(heading ? [h('h3', {}, heading)] : []), controls, ...panels('below'), this.#facts];
+    const beside = [
+      ...panels.at('above'),
+      ...(heading ? [h('h3', {}, heading)] : []),
+      controls,
+      ...panels.at('below'),
+      this.#facts,
+    ];
     this.element.append(
-      h('div', { class: 'figure-head' }, this.#title, ...(sides ? [choice] : []), h('div', { class: 'tools' }, ...panels('tools'))),
+      h(
+        'div',
+        { class: 'figure-head' },
+        this.#title,
+        ...(sides ? [choice] : []),
+        h('div', { class: 'tools' }, ...panels.at('tools')),
+      ),
       this.#said,
       this.#notice,
       h('div', { class: 'figure-body' }, stage, h('div', { class: 'controls stack' }, ...beside)),

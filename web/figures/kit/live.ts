@@ -1,15 +1,15 @@
 import type { Handlebody } from '../../../wasm/ts/index.ts';
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import { leftOut } from '../../ui/address.ts';
-import { h } from '../../ui/dom.ts';
 import { explain } from '../../ui/explain.ts';
 import { NotFetched } from '../../ui/lazy.ts';
 import { isAbort } from '../../ui/messages.ts';
 import { PageError } from '../../ui/page-error.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControls, partsOf } from './controls.ts';
-import type { Figure, Kit, OpenPanel, Panel, Told, Wait, Work } from './figure.ts';
+import type { Figure, Kit, Told, Wait, Work } from './figure.ts';
 import { Layout } from './layout.ts';
+import { Panels } from './panels.ts';
 import { savePicture } from './save-picture.ts';
 import { fromText, type Preset, type ReadState, stateOfPreset, toText } from './state-text.ts';
 
@@ -40,13 +40,6 @@ interface Disposable {
   dispose?(): void;
 }
 
-/** A panel of the figure, where it lies, and itself once it was shown. */
-interface Slot<M, S> {
-  readonly panel: Panel<M, S>;
-  readonly place: HTMLElement;
-  opened?: OpenPanel<M, S>;
-}
-
 interface Shown<C extends Channels> {
   readonly preset: Preset<C>;
   readonly state: StateOf<C>;
@@ -58,12 +51,10 @@ export class Live<C extends Channels, M extends Disposable> {
   readonly #options: LiveOptions;
   readonly #layout: Layout;
   readonly #controls: PartShown<StateOf<C>>;
-  readonly #slots: readonly Slot<M, StateOf<C>>[];
+  readonly #panels: Panels<M, StateOf<C>>;
   readonly #kit: Kit<StateOf<C>, M>;
   /** The sides that are not shown, as they were left. */
   readonly #aside = new Map<number, Shown<C>>();
-  /** What the pictures are to show alone: the rest fades. */
-  #emphasis: number | undefined;
   #hb: HandlebodyRuntime | undefined;
   #preset: Preset<C>;
   #state: StateOf<C>;
@@ -100,14 +91,8 @@ export class Live<C extends Channels, M extends Disposable> {
       else this.change(patch);
     });
     this.#kit = this.#makeKit();
-    this.#slots = Object.values(figure.panels).map((panel) => {
-      const place = h('div', { hidden: true });
-      place.style.display = 'contents';
-      return { panel, place };
-    });
-    const places = (wanted: Panel<M, StateOf<C>>['place']) =>
-      this.#slots.filter(({ panel }) => panel.place === wanted).map(({ place }) => place);
-    this.#layout = new Layout(figure, this.#controls.element, places, {
+    this.#panels = new Panels(Object.values(figure.panels));
+    this.#layout = new Layout(figure, this.#controls.element, this.#panels, {
       begin: (id) => this.#begin(id),
       turnTo: (side) => this.#turnTo(side),
       reset: () => this.reset(),
@@ -206,7 +191,7 @@ export class Live<C extends Channels, M extends Disposable> {
     this.#work?.abort();
     clearTimeout(this.#timer);
     cancelAnimationFrame(this.#frame);
-    for (const { opened } of this.#slots) opened?.dispose();
+    this.#panels.dispose();
     this.#made?.dispose?.();
     this.element.remove();
   }
@@ -234,7 +219,7 @@ export class Live<C extends Channels, M extends Disposable> {
   /** Draws what needs no solver, as `data-drawn` says. */
   async #sketch(): Promise<void> {
     // What does not come is heard of when the rest is made.
-    this.#openPanels(this.#state)?.catch(() => {});
+    this.#panels.open(this.#kit, this.#state)?.catch(() => {});
     await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
     if (this.#made || this.#disposed) return;
     try {
@@ -259,20 +244,6 @@ export class Live<C extends Channels, M extends Disposable> {
     else setTimeout(draw, 50);
   }
 
-  /** The panels that a state shows; those that were not shown before may have to be fetched first. */
-  #openPanels(state: StateOf<C>): Promise<unknown> | undefined {
-    const coming = this.#slots.flatMap((slot) => {
-      if (slot.opened || !(slot.panel.shown?.(state) ?? true)) return [];
-      const opening = slot.panel.open(this.#kit);
-      const keep = (opened: OpenPanel<M, StateOf<C>>) => {
-        if (slot.opened || this.#disposed) opened.dispose();
-        else slot.opened = opened;
-      };
-      return opening instanceof Promise ? [opening.then(keep)] : (keep(opening) ?? []);
-    });
-    return coming.length > 0 ? Promise.all(coming) : undefined;
-  }
-
   #makeKit(): Kit<StateOf<C>, M> {
     const hb = () => this.#hb as HandlebodyRuntime;
     const made = () => this.#made;
@@ -295,10 +266,7 @@ export class Live<C extends Channels, M extends Disposable> {
       },
       tell: (error) => this.#layout.trouble.tell(error),
       wait: this.#wait,
-      emphasize: (key) => {
-        this.#emphasis = key;
-        this.#fade();
-      },
+      emphasize: (key) => this.#panels.emphasize(key),
       focus: (selector, other) =>
         void requestAnimationFrame(() => {
           const found = [...this.#layout.pictures.querySelectorAll<HTMLElement>(selector)].find((element) =>
@@ -327,12 +295,6 @@ export class Live<C extends Channels, M extends Disposable> {
       if (!this.#disposed) this.#stir();
     }
   };
-
-  #fade(): void {
-    const key = this.#emphasis === undefined ? undefined : String(this.#emphasis);
-    for (const element of this.#layout.pictures.querySelectorAll<HTMLElement | SVGElement>('[data-key]'))
-      element.toggleAttribute('data-faded', key !== undefined && element.dataset.key !== key);
-  }
 
   #read(text: string): ReadState<C> {
     const { parameters, presets, former, mend } = this.#figure;
@@ -427,7 +389,7 @@ export class Live<C extends Channels, M extends Disposable> {
   /** What is beside the pictures waits for none of them. */
   #making(hb: HandlebodyRuntime, state: StateOf<C>, signal: AbortSignal): M | Promise<M> {
     const make = () => this.#figure.make(hb, state, this.#worker(signal), this.#made);
-    const opening = this.#openPanels(state);
+    const opening = this.#panels.open(this.#kit, state);
     if (!opening) return make();
     // Heard of below, unless something else goes wrong before.
     opening.catch(() => {});
@@ -509,19 +471,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #paint(made: M): void {
     this.#attempt(() => {
-      const state = this.#visible;
-      let count = 0;
-      for (const { panel, place, opened } of this.#slots) {
-        const shown = opened !== undefined && (panel.shown?.(state) ?? true);
-        place.hidden = !shown;
-        // What is not shown is not in the page, so that nothing finds it there.
-        if (!shown) place.replaceChildren();
-        else if (opened.element.parentElement !== place) place.append(opened.element);
-        if (shown && !panel.place) count++;
-      }
-      this.#layout.pictures.dataset.count = String(count);
-      for (const { place, opened } of this.#slots) if (!place.hidden) opened?.draw(made, state);
-      this.#fade();
+      this.#layout.pictures.dataset.count = String(this.#panels.draw(made, this.#visible));
     });
   }
 
@@ -542,7 +492,7 @@ export class Live<C extends Channels, M extends Disposable> {
           this.#figure.settle(made, this.#state);
           this.#paint(made);
         }
-        for (const { place, opened } of this.#slots) if (!place.hidden) opened?.refine?.(made, this.#state);
+        this.#panels.refine(made, this.#state);
         this.#told = this.#figure.told?.(made, this.#state) ?? [];
       });
     }

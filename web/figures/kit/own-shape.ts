@@ -35,7 +35,6 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
   readonly #file = h('input', {
     type: 'file',
     class: 'unseen',
-    id: 'file',
     tabindex: -1,
     'aria-label': 'Picture',
     accept: 'image/png,image/svg+xml,image/webp,.png,.svg',
@@ -62,7 +61,7 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
         h(
           'div',
           { class: 'tools' },
-          button('Open a PNG or SVG', () => this.#file.click(), 'button small', { id: 'open' }),
+          button('Open a PNG or SVG', () => this.#file.click()),
           button('Cancel', () => this.#cancel()),
         ),
         h(
@@ -71,7 +70,7 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
           h('summary', {}, 'Type it instead'),
           h('p', { class: 'soft' }, 'x and y of a point on each line; an empty line begins a hole.'),
           this.#typed,
-          button('Use these points', () => this.#takeTyped(), 'button small', { id: 'use-typed' }),
+          button('Use these points', () => this.#takeTyped()),
         ),
       ),
       this.#file,

@@ -4,22 +4,17 @@ import { meshFromObject } from '../../three/geometry.ts';
 import { handlebodyPlugin } from '../../three/loader.ts';
 import { notFetched } from '../../ui/lazy.ts';
 
-interface ModelSurface {
-  readonly positions: Float32Array;
-  readonly triangles: Uint32Array;
-}
-
-const models = new Map<string, Promise<ModelSurface>>();
+const models = new Map<string, ReturnType<typeof fetchOnce>>();
 
 /** The surface in one of the site's models, fetched once a page: "dog.glb". `what` names it in words where it does not come. */
-export function fetchModel(file: string, what: string): Promise<ModelSurface> {
+export function fetchModel(file: string, what: string) {
   const coming = models.get(file) ?? fetchOnce(file, what);
   models.set(file, coming);
   coming.catch(() => models.delete(file));
   return coming;
 }
 
-async function fetchOnce(file: string, what: string): Promise<ModelSurface> {
+async function fetchOnce(file: string, what: string) {
   const response = await fetch(new URL(`../../models/${file}`, document.baseURI)).catch(() => undefined);
   if (!response?.ok) throw await notFetched(what);
   const gltf = await new GLTFLoader().register(handlebodyPlugin).parseAsync(await response.arrayBuffer(), '');

@@ -54,10 +54,6 @@ export class ModelList implements OpenPanel<Fits, State> {
     for (const card of cards) card.update(toleranceOf(state));
   }
 
-  dispose(): void {
-    this.element.remove();
-  }
-
   readonly #actions = {
     set: (key: number, settings: Settings) =>
       this.#replace(key, (model) => ({ ...model, settings: { ...model.settings, ...settings } })),

@@ -34,10 +34,6 @@ export class PointTable implements OpenPanel<unknown, State> {
     this.#update();
   }
 
-  dispose(): void {
-    this.element.remove();
-  }
-
   #update(): void {
     if (!(this.element as HTMLDetailsElement).open) return;
     const { p, pick, in: frame } = this.#kit.state;

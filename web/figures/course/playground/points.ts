@@ -53,5 +53,5 @@ export function toolsOf(kit: Kit<State, Fits>): OpenPanel<Fits, State> {
     removes.disabled = pick < 0 || p.values.length === 1;
     removes.textContent = pick < 0 ? 'Remove' : `Remove point ${pick}`;
   };
-  return { element, draw, dispose: () => element.remove() };
+  return { element, draw };
 }

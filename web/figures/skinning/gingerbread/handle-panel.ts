@@ -28,10 +28,9 @@ export const handlePanel: Panel<Bent, State> = {
       if (handle && Number.isFinite(value)) kit.change({ h: handles.with(kit.state.pick, set(handle, value)) });
       else kit.redraw();
     };
-    const which = h('select', { id: 'which', onchange: () => kit.change({ pick: Number(which.value) }) });
+    const which = h('select', { onchange: () => kit.change({ pick: Number(which.value) }) });
     const turn = h('input', {
       type: 'range',
-      id: 'turn',
       min: -180,
       max: 180,
       step: 1,
@@ -51,20 +50,14 @@ export const handlePanel: Panel<Bent, State> = {
     const body = h(
       'div',
       { class: 'handle-body stack' },
-      h('div', { class: 'control' }, h('label', { for: 'which' }, 'Handle'), which),
-      h('div', { class: 'control' }, h('label', { for: 'turn' }, 'Turn'), turn),
+      h('label', { class: 'control' }, 'Handle', which),
+      h('label', { class: 'control' }, 'Turn', turn),
       h('div', { class: 'numbers' }, ...labels.slice(0, 3)),
       h('div', { class: 'numbers' }, ...labels.slice(3)),
     );
     let kinds = '?';
     return {
-      element: h(
-        'section',
-        { class: 'stack', 'aria-labelledby': 'handle-title' },
-        h('h3', { id: 'handle-title' }, 'Picked handle'),
-        none,
-        body,
-      ),
+      element: h('section', { class: 'stack', 'aria-label': 'Picked handle' }, h('h3', {}, 'Picked handle'), none, body),
       draw: (bent, state) => {
         handles = bent.handles(state);
         none.hidden = handles.length > 0;
@@ -86,7 +79,6 @@ export const handlePanel: Panel<Bent, State> = {
         turn.setAttribute('aria-valuetext', `${Math.round(handle?.turn ?? 0)}°`);
         for (const label of labels.slice(5)) label.hidden = !handle?.end;
       },
-      dispose: () => {},
     };
   },
 };

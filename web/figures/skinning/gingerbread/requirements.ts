@@ -70,8 +70,8 @@ export const requirements: Panel<Bent, State> = {
     );
     const element = h(
       'section',
-      { 'aria-labelledby': 'requirements-title', class: 'requirements stack' },
-      h('h3', { id: 'requirements-title' }, 'What weights should be'),
+      { 'aria-label': 'What weights should be', class: 'requirements stack' },
+      h('h3', {}, 'What weights should be'),
       h('table', {}, h('thead', {}, h('tr', {}, h('td'), ...columns.map(({ head }) => head))), h('tbody', {}, ...rows)),
       h(
         'details',
