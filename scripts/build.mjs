@@ -6,6 +6,7 @@ import { ensureInstalled } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
 import { mustRun, runMain } from './lib/run.mjs';
 import { buildSite, hasPages } from './lib/site.mjs';
+import { buildStandalone } from './lib/standalone.mjs';
 
 const named = process.argv.slice(2);
 const wanted = (/** @type {string} */ part) => named.length === 0 || named.includes(part);
@@ -22,6 +23,7 @@ await runMain(async () => {
       '--inlineSources',
     ]);
     finishDist(at('dist'));
+    await buildStandalone('dist');
     console.log('dist/: the library.');
   }
   if (wanted('site') && hasPages()) {

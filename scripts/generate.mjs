@@ -119,6 +119,28 @@ ${exportSignatures(abi, 'HB_WHOLE_API')}
 `,
 );
 
+/**
+ * Style sheets as the elements take them into their shadow: its root stands for the page's, and lengths do not hang on the page's letters.
+ * @param {readonly string[]} files
+ */
+function stylesOf(files) {
+  const css = files.map((file) => readFileSync(at(file), 'utf8')).join('\n');
+  return css
+    .replace(/\/\*[\s\S]*?\*\//g, '')
+    .replaceAll(':root', ':host')
+    .replace(/^(?!@media).*$/gm, (line) => line.replace(/(-?[\d.]+)rem\b/g, 'calc($1 * var(--rem))'))
+    .replace(/\s+/g, ' ')
+    .trim();
+}
+
+const ELEMENT_STYLES = ['tokens', 'base', 'stage', 'handles', 'messages'].map((name) => `web/styles/${name}.css`);
+write(
+  'web/element/styles.generated.ts',
+  `// Generated from web/styles and web/element/element.css by scripts/generate.mjs.
+export const STYLES = ${JSON.stringify(stylesOf([...ELEMENT_STYLES, 'web/element/element.css']))};
+`,
+);
+
 /** @type {[from: string, to: string][]} */
 const MODULES = [
   ['wasm/handlebody.wasm', 'wasm/ts/binary.generated.ts'],

@@ -1,6 +1,7 @@
-// The built site (build/site): the studio and the lessons.
+// The built site (build/site): the studio, the lessons, and the elements for pages of others.
 import { existsSync, readdirSync } from 'node:fs';
 import { at } from './paths.mjs';
+import { buildStandalone } from './standalone.mjs';
 
 /** Whether there is any page to build. */
 export function hasPages() {
@@ -14,4 +15,5 @@ export function hasPages() {
 export async function buildSite() {
   const { build } = await import('vite');
   await build({ configFile: at('vite.config.ts'), logLevel: 'warn' });
+  await buildStandalone('build/site');
 }

@@ -11,8 +11,8 @@ import { attachBody, HANDLEBODY_BODY, readBody, readGlb, readMesh, writeGlb } fr
 import { addPredictions, fromLanes, predictionMisses, toLanes } from '../../web/assets/predict-distances.ts';
 import { parseBodyHeader } from '../../web/assets/schema.ts';
 import { countInRuns, fromRuns, toRuns } from '../../web/assets/voxel-runs.ts';
-import { loadModel } from '../../web/studio/load-model.ts';
 import { handlebodyData, handlebodyPlugin } from '../../web/three/index.ts';
+import { loadModel } from '../../web/three/load-model.ts';
 import { dogHandles, readDog, readDogBytes } from './support/dog.ts';
 import { boxMesh } from './support/shapes.ts';
 

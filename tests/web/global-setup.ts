@@ -3,8 +3,9 @@ import { existsSync, readdirSync, statSync } from 'node:fs';
 import { createServer } from 'node:net';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { build, preview } from 'vite';
+import { preview } from 'vite';
 import type { TestProject } from 'vitest/node';
+import { buildSite } from '../../scripts/lib/site.mjs';
 
 declare module 'vitest' {
   interface ProvidedContext {
@@ -19,7 +20,7 @@ const built = path.join(root, 'build/site/studio/index.html');
 
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const sources = ['web', 'wasm/ts', 'public'].map((folder) => newest(path.join(root, folder)));
-  if (!existsSync(built) || Math.max(...sources) > statSync(built).mtimeMs) await build({ configFile, logLevel: 'warn' });
+  if (!existsSync(built) || Math.max(...sources) > statSync(built).mtimeMs) await buildSite();
   const port = await freePort();
   const server = await preview({ configFile, logLevel: 'warn', preview: { port, strictPort: true, host: '127.0.0.1' } });
   project.provide('site', `http://127.0.0.1:${port}/`);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { rangesOf, setInfluences } from '../../web/studio/influences.ts';
+import { rangesOf, setInfluences } from '../../web/three/influences.ts';
 
 describe('the influences of morph targets', () => {
   const examples = [

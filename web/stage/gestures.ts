@@ -34,7 +34,9 @@ export function keepTwoFingers(area: HTMLElement, controls: OrbitControls, signa
 /** Whether a wheel over an element scrolls a box around it, the page, or, for all that can be known, the page around its frame. */
 function isAboveScrolling(element: HTMLElement): boolean {
   if (parent !== self) return true;
-  for (let box = element.parentElement; box; box = box.parentElement) {
+  // Out of an element's shadow, too.
+  const above = (box: Element) => box.parentElement ?? (box.getRootNode() as Partial<ShadowRoot>).host ?? null;
+  for (let box = above(element); box; box = above(box)) {
     const isLonger = box.scrollHeight > box.clientHeight + 1;
     if (isLonger && (box === document.documentElement || /auto|scroll/.test(getComputedStyle(box).overflowY))) return true;
   }

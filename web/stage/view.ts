@@ -38,6 +38,9 @@ export class View {
   /** The last frame asked for this one, so the time between them passed in a movement. */
   #awake = false;
   #size: PictureSize = { width: 0, height: 0, ratio: 1 };
+  #asleep = false;
+  /** A frame was asked for. */
+  #isDue = false;
   #shadows = true;
 
   /**
@@ -151,9 +154,19 @@ export class View {
     this.invalidate();
   }
 
+  /** What nobody sees draws no frame; what has to be drawn is drawn when it wakes. */
+  sleep(asleep: boolean): void {
+    this.#asleep = asleep;
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+    if (this.#isDue) this.invalidate();
+  }
+
   /** Asks for a frame. */
   invalidate(): void {
-    if (!this.signal.aborted) this.#frame ||= requestAnimationFrame((now) => this.#draw(now));
+    if (this.signal.aborted) return;
+    this.#isDue = true;
+    if (!this.#asleep) this.#frame ||= requestAnimationFrame((now) => this.#draw(now));
   }
 
   /** Runs `step` before every frame until it says that it is done. */
@@ -201,7 +214,7 @@ export class View {
   }
 
   #draw(now: number): void {
-    this.#frame = 0;
+    [this.#frame, this.#isDue] = [0, false];
     // After a sleep the pause is no time that passed in a movement.
     const seconds = this.#awake ? Math.min((now - this.#last) / 1000, 1 / 4) : 1 / 60;
     this.#last = now;

@@ -1,6 +1,6 @@
 import { Vector3 } from 'three';
+import type { Point } from '../three/live-body.ts';
 import { button, h } from '../ui/dom.ts';
-import type { Point } from './live-body.ts';
 
 /** What the panel steers. */
 export interface Steerable {

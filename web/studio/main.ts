@@ -3,7 +3,7 @@ import { cameraTools } from '../stage/camera-tools.ts';
 import { View } from '../stage/view.ts';
 import { byId } from '../ui/dom.ts';
 import { Messages } from '../ui/messages.ts';
-import { Note } from '../ui/note.ts';
+import { noteIn } from '../ui/note.ts';
 import { Progress } from '../ui/progress.ts';
 import { listenForFiles } from './drop.ts';
 import { ModelSwitch } from './model-switch.ts';
@@ -13,12 +13,12 @@ byId('unfetched').remove();
 const viewport = byId('viewport');
 const messages = new Messages(byId('messages'), () => viewport);
 const progress = new Progress(byId('progress'));
-const note = new Note(byId('note'));
+const note = noteIn(byId('note'));
 
 function start(): void {
   const view = new View(byId<HTMLCanvasElement>('canvas'), viewport);
   viewport.after(cameraTools(view, viewport));
-  view.onInterrupted = (words) => note.show(words);
+  view.onInterrupted = (words) => note(words);
   // Asked for now, awaited when a model is there: both come at the same time.
   const solver = load();
   solver.catch(() => {});

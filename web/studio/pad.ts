@@ -1,7 +1,7 @@
+import type { PoseSpaceSource } from '../three/pose-source.ts';
 import { h, svg } from '../ui/dom.ts';
 import { draggable, type Grip, isDragging, take } from '../ui/drag.ts';
 import { declutter, type Label } from './declutter.ts';
-import type { PoseSpaceSource } from './pose-source.ts';
 
 /** Words for the ends of the axes of Russell's plane; other spaces get minus and plus. */
 const ENDS: Record<string, readonly [string, string]> = { valence: ['unpleasant', 'pleasant'], arousal: ['sleepy', 'activated'] };

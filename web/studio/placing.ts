@@ -1,5 +1,4 @@
 import { byId } from '../ui/dom.ts';
-import type { Note } from '../ui/note.ts';
 
 /** What a new handle is asked of: a place on the view, −1 to 1. Says whether there is a surface. */
 type PlaceAt = (x: number, y: number) => boolean;
@@ -8,12 +7,12 @@ type PlaceAt = (x: number, y: number) => boolean;
 export class Placing {
   readonly #viewport = byId('viewport');
   readonly #reticle = byId('reticle');
-  readonly #note: Note;
+  readonly #note: (words: string) => void;
   readonly #place: PlaceAt;
   #active = false;
   #down: { x: number; y: number } | undefined;
 
-  constructor(note: Note, place: PlaceAt) {
+  constructor(note: (words: string) => void, place: PlaceAt) {
     this.#note = note;
     this.#place = place;
     const viewport = this.#viewport;
@@ -31,7 +30,7 @@ export class Placing {
   begin(): void {
     this.#active = true;
     this.#reticle.hidden = false;
-    this.#note.show('Turn the model until the ring is on the spot and press Enter, or click the spot. Esc stops.');
+    this.#note('Turn the model until the ring is on the spot and press Enter, or click the spot. Esc stops.');
     this.#viewport.focus({ preventScroll: true });
     this.#viewport.scrollIntoView({ block: 'nearest' });
   }
@@ -40,7 +39,7 @@ export class Placing {
     if (!this.#active) return;
     this.#active = false;
     this.#reticle.hidden = true;
-    this.#note.show('');
+    this.#note('');
   }
 
   #key(event: KeyboardEvent): void {
@@ -54,7 +53,7 @@ export class Placing {
   #try(event: MouseEvent | undefined): void {
     const [x, y] = event ? this.#at(event) : [0, 0];
     if (this.#place(x, y)) this.end();
-    else this.#note.show('There is no surface at that spot. Turn the model, or click on it. Esc stops.');
+    else this.#note('There is no surface at that spot. Turn the model, or click on it. Esc stops.');
   }
 
   #at(event: MouseEvent): [number, number] {

@@ -1,7 +1,7 @@
+import type { PoseSpaceSource } from '../three/pose-source.ts';
 import { button, h, readable } from '../ui/dom.ts';
 import { steerSlider } from '../ui/slider.ts';
 import { Pad } from './pad.ts';
-import type { PoseSpaceSource } from './pose-source.ts';
 import { WeightBars } from './weight-bars.ts';
 
 /** How long the puck must rest before its place is read out. */

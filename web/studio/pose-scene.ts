@@ -1,10 +1,10 @@
 import type { Mesh, Object3D } from 'three';
 import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
+import { type Range, rangesOf, setInfluences } from '../three/influences.ts';
+import type { PoseSpaceSource } from '../three/pose-source.ts';
 import { reducedMotion } from '../ui/motion.ts';
-import { type Range, rangesOf, setInfluences } from './influences.ts';
 import { PosePanel } from './pose-panel.ts';
-import type { PoseSpaceSource } from './pose-source.ts';
 import type { StudioScene } from './scene.ts';
 
 interface PoseSceneOptions {

@@ -1,5 +1,5 @@
+import type { Round } from '../three/live-body.ts';
 import { h } from '../ui/dom.ts';
-import type { Round } from './live-body.ts';
 
 /** The small print of the solver, in the corner of the view. Silent for screen readers: it changes with every frame. */
 export class Readout {

@@ -1,17 +1,16 @@
 import type { BakeWarning, BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
+import { farthestVertices } from '../three/farthest.ts';
+import { fetchModel } from '../three/fetch-model.ts';
 import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
+import { LiveBody } from '../three/live-body.ts';
+import { type LoadedModel, loadModel } from '../three/load-model.ts';
 import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
-import type { Note } from '../ui/note.ts';
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
 import { BodyScene } from './body-scene.ts';
-import { farthestVertices } from './farthest.ts';
-import { fetchModel } from './fetch-model.ts';
 import { readHandles } from './handles-json.ts';
-import { LiveBody } from './live-body.ts';
-import { type LoadedModel, loadModel } from './load-model.ts';
 import type { ModelSwitch } from './model-switch.ts';
 import { type ModelEntry, modelOf } from './models.ts';
 import { Placing } from './placing.ts';
@@ -29,7 +28,7 @@ interface StudioParts {
   readonly solver: Promise<HandlebodyRuntime>;
   readonly messages: Messages;
   readonly progress: Progress;
-  readonly note: Note;
+  readonly note: (words: string) => void;
 }
 
 /** Brings models onto the stage one at a time; the former one stays until the next is ready, and for good when that fails. */

@@ -1,5 +1,5 @@
+import type { PoseSpaceSource } from '../three/pose-source.ts';
 import { h, readable } from '../ui/dom.ts';
-import type { PoseSpaceSource } from './pose-source.ts';
 
 /** A bar for every example's weight, blue to the right and orange to the left of zero, with its number; a click goes to the example. */
 export class WeightBars {

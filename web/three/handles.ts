@@ -123,6 +123,10 @@ export class HandleOverlay {
     if (item && item.description.textContent !== text) item.description.textContent = text;
   }
 
+  description(index: number): string {
+    return this.#items[index]?.description.textContent ?? '';
+  }
+
   /** Marks a handle as lying on the model's far side. */
   setAway(index: number, away: boolean): void {
     this.#items[index]?.button.toggleAttribute('data-away', away);

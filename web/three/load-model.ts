@@ -3,7 +3,7 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb } from '../assets/check-glb.ts';
-import { handlebodyData, handlebodyPlugin } from '../three/loader.ts';
+import { handlebodyData, handlebodyPlugin } from './loader.ts';
 import type { PoseSpaceSource } from './pose-source.ts';
 
 /** What a GLB brings: an object, and maybe what was baked into it. */

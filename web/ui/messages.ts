@@ -8,8 +8,7 @@ export class Messages {
 
   /** `area` is the live region, in the page from the start; `returnTo` gets the focus when a message is dismissed. */
   constructor(area: HTMLElement, returnTo: () => HTMLElement | null) {
-    this.#area = area;
-    this.#returnTo = returnTo;
+    [this.#area, this.#returnTo] = [area, returnTo];
   }
 
   /** `again`: what was asked for may well come when it is asked for once more. */
@@ -20,8 +19,7 @@ export class Messages {
       this.#dismiss();
       again?.();
     };
-    const style = 'margin-block-start: var(--gap-2)';
-    if (again) text.append(h('button', { type: 'button', class: 'button', style, onclick: retry }, 'Try again'));
+    if (again) text.append(button('Try again', retry, 'button', { style: 'margin-block-start: var(--gap-2)' }));
     const dismiss = button('×', () => this.#dismiss(), 'dismiss', { 'aria-label': 'Dismiss this message' });
     const card = h('div', { class: 'message' }, text, dismiss);
     card.addEventListener('keydown', (event) => event.key === 'Escape' && this.#dismiss());

@@ -1,14 +1,7 @@
-/** A line over a view that says what is going on. */
-export class Note {
-  readonly #element: HTMLElement;
-
-  constructor(element: HTMLElement) {
-    this.#element = element;
-  }
-
-  /** Without words it goes. */
-  show(words: string): void {
-    this.#element.textContent = words;
-    this.#element.hidden = words === '';
-  }
+/** Says a line in an element over a view; without words it goes. */
+export function noteIn(element: HTMLElement): (words: string) => void {
+  return (words) => {
+    element.textContent = words;
+    element.hidden = words === '';
+  };
 }

@@ -1,26 +1,25 @@
-import { h } from './dom.ts';
+import { button, h } from './dom.ts';
 
 /** A bar over the view for work that takes a while, with a way to stop it. */
 export class Progress {
   readonly #box: HTMLElement;
-  readonly #label = h('span', { id: 'progress-label' });
-  readonly #bar = h('progress', { max: 1, 'aria-labelledby': 'progress-label' });
-  readonly #cancel = h('button', { type: 'button', class: 'button', hidden: true }, 'Cancel');
+  readonly #label = h('span');
+  readonly #bar = h('progress', { max: 1 });
+  readonly #cancel = button('Cancel', () => this.#stop?.(), 'button', { hidden: true });
   #stop: (() => void) | undefined;
   /** What had the focus when the work began. */
   #from: Element | null = null;
 
   constructor(box: HTMLElement) {
     this.#box = box;
-    this.#cancel.addEventListener('click', () => this.#stop?.());
-    const label = document.getElementById('progress-label');
-    label?.replaceWith(this.#label);
+    // What the page itself says until the program has come.
+    this.#name(box.textContent?.trim() ?? '');
     box.replaceChildren(h('div', { class: 'progress-text' }, this.#label, this.#cancel), this.#bar);
   }
 
   /** Shows the bar. Without `cancel` there is no button. */
   begin(label: string, cancel?: () => void): void {
-    this.#label.textContent = label;
+    this.#name(label);
     this.#stop = cancel;
     if (this.#box.hidden) this.#from = document.activeElement;
     this.#cancel.hidden = !cancel;
@@ -32,12 +31,16 @@ export class Progress {
   set(part: number | undefined, label?: string): void {
     if (part === undefined) this.#bar.removeAttribute('value');
     else this.#bar.value = part;
-    if (label) this.#label.textContent = label;
+    this.#name(label);
   }
 
   end(): void {
     if (this.#box.contains(document.activeElement) && this.#from instanceof HTMLElement) this.#from.focus();
     this.#box.hidden = true;
     this.#stop = undefined;
+  }
+
+  #name(label = this.#label.textContent): void {
+    this.#label.textContent = this.#bar.ariaLabel = label;
   }
 }

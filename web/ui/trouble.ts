@@ -8,8 +8,7 @@ export class Trouble {
 
   /** `returnTo` gets the focus when the line goes and had it. */
   constructor(area: HTMLElement, returnTo: () => HTMLElement | null) {
-    this.#area = area;
-    this.#returnTo = returnTo;
+    [this.#area, this.#returnTo] = [area, returnTo];
   }
 
   tell(error: unknown, again?: () => void): void {

@@ -1,6 +1,6 @@
 import type { BakeOptions, BakeShape, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import type { BakeAnswer, BakeQuestion, PostedBakeOptions } from './answer.ts';
-import { type InWorkerOptions, inWorker } from './in-worker.ts';
+import { type InWorkerOptions, importingWorker, inWorker } from './in-worker.ts';
 
 /** `worker`: its script must import "handlebody/bake-worker" or be that file. */
 export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 'worker' | 'onFallback'> {}
@@ -33,9 +33,16 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
   return { ...body, mesh: body.mesh ?? (shape as Mesh) };
 }
 
+/** Beside this file, where nothing has bundled it. Not in its place below, lest bundlers take it for another file to copy. */
+const BESIDE = './bake-worker.js';
+
 /** Written as bundlers look for it. The name ends in .js for the published files; Vite finds the .ts beside it in the sources. */
 function defaultWorker(): Worker {
-  return new Worker(new URL('./bake-worker.js', import.meta.url), { type: 'module', name: 'handlebody-bake' });
+  try {
+    return new Worker(new URL('./bake-worker.js', import.meta.url), { type: 'module', name: 'handlebody-bake' });
+  } catch (reason) {
+    return importingWorker(new URL(BESIDE, import.meta.url), 'handlebody-bake', reason);
+  }
 }
 
 /** Copies that travel without being copied again. */

@@ -42,6 +42,20 @@ export async function inWorker<Answer>(work: Work<Answer>): Promise<Answer> {
   return work.here();
 }
 
+/**
+ * A worker of another origin's script, as on pages that take the library from a CDN: browsers start only scripts of the page's own origin, so
+ * it is one that imports the other. Throws `reason` where that is not what kept a worker from starting.
+ */
+export function importingWorker(script: URL, name: string, reason: unknown): Worker {
+  const here = globalThis.location?.origin;
+  if (!here || here === 'null' || script.origin === here || script.protocol === 'file:') throw reason;
+  const address = URL.createObjectURL(new Blob([`import ${JSON.stringify(script.href)};`], { type: 'text/javascript' }));
+  const worker = new Worker(address, { type: 'module', name });
+  const forget = () => URL.revokeObjectURL(address);
+  for (const type of ['message', 'error']) worker.addEventListener(type, forget, { once: true });
+  return worker;
+}
+
 async function converse<Answer>(
   worker: Worker,
   { ask, signal, onProgress, onWarning }: Work<Answer>,

@@ -137,9 +137,9 @@ export async function loseContext(page: Page): Promise<void> {
       keep.extension?.[method]();
     }, what);
   await call('loseContext');
-  await page.locator('#note, .picture .note').filter({ hasText: 'interrupted' }).waitFor();
+  await page.locator('#note, :is(.picture, handle-body) .note').filter({ hasText: 'interrupted' }).waitFor();
   await call('restoreContext');
-  await page.locator('#note, .picture .note').first().waitFor({ state: 'hidden' });
+  await page.locator('#note, :is(.picture, handle-body) .note').first().waitFor({ state: 'hidden' });
 }
 
 /** Fingers by number: `touch('touchStart', [x, y, 0], [x, y, 1])`. One that is missing from the next call has lifted. */

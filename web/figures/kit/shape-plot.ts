@@ -1,6 +1,7 @@
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
 import { button, h } from '../../ui/dom.ts';
+import { noteIn } from '../../ui/note.ts';
 import { PageError } from '../../ui/page-error.ts';
 import { onPaper, onScreenChange } from '../../ui/screen.ts';
 import { ColorMap } from './color-map.ts';
@@ -52,11 +53,7 @@ class ShapePlot<M, S> implements OpenPanel<M, S> {
   constructor(kit: Kit<S>, options: ShapePlotOptions<M, S>) {
     [this.#kit, this.#options] = [kit, options];
     const note = h('p', { class: 'note', role: 'status', hidden: true });
-    const say = (words: string) => {
-      note.textContent = words;
-      note.hidden = words === '';
-    };
-    this.#picture = new ShapePicture(say, () => kit.redraw());
+    this.#picture = new ShapePicture(noteIn(note), () => kit.redraw());
     const adds = button('Add a point', () => this.#add(({ mesh, handles }) => point(...emptiest(mesh, handles))));
     this.#handles = new ShapeHandles(this.#picture, adds);
     this.#remove = button('Remove', () => this.#handles.remove(this.#handles.held.picked));

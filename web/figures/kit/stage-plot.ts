@@ -5,7 +5,7 @@ import { sharedEasel } from '../../stage/easel.ts';
 import { View } from '../../stage/view.ts';
 import { HandleOverlay } from '../../three/handles.ts';
 import { h } from '../../ui/dom.ts';
-import { Note } from '../../ui/note.ts';
+import { noteIn } from '../../ui/note.ts';
 import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { placed, rows } from './space-points.ts';
@@ -91,8 +91,7 @@ class Stage<S> {
     viewport.append(canvas, container);
     this.#view = new View(canvas, viewport, sharedEasel());
     this.element = h('div', { class: 'stage' }, viewport, cameraTools(this.#view, viewport), note);
-    const line = new Note(note);
-    this.#view.onInterrupted = (words) => line.show(words);
+    this.#view.onInterrupted = noteIn(note);
     this.#overlay = new HandleOverlay({
       camera: this.#view.camera,
       container,

@@ -1,0 +1,28 @@
+// The elements for pages without a bundler: handlebody.standalone.js with three.js in it, and in standalone/ what it fetches when asked.
+import { at } from './paths.mjs';
+
+/** @param {string} folder Where to, from the project's folder; what lies there stays. */
+export async function buildStandalone(folder) {
+  const { build } = await import('vite');
+  await build({
+    configFile: false,
+    root: at('web'),
+    publicDir: false,
+    base: './',
+    logLevel: 'warn',
+    // Found beside what starts it, on pages of other origins too: see `importingWorker`.
+    worker: { format: 'es', rolldownOptions: { output: { entryFileNames: 'standalone/[name].js' } } },
+    build: {
+      outDir: at(folder),
+      emptyOutDir: false,
+      target: 'es2022',
+      modulePreload: false,
+      chunkSizeWarningLimit: 1000,
+      rolldownOptions: {
+        input: { 'handlebody.standalone': at('web/element/index.ts') },
+        preserveEntrySignatures: 'strict',
+        output: { entryFileNames: '[name].js', chunkFileNames: 'standalone/[name]-[hash].js' },
+      },
+    },
+  });
+}

@@ -1,0 +1,116 @@
+/** A baked model under handles in three.js: spaces, refusals, and what is left behind. */
+import { Group, Mesh, MeshBasicMaterial, PerspectiveCamera, Vector3 } from 'three';
+import { CapsuleGeometry } from 'three/src/geometries/CapsuleGeometry.js';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { BodyData, Handlebody } from '../../wasm/ts/index.ts';
+import { load } from '../../wasm/ts/index.ts';
+import { draggable, meshFromObject } from '../../web/three/index.ts';
+
+let hb: Handlebody;
+let body: BodyData;
+const model = () => new Group().add(new Mesh(new CapsuleGeometry(0.3, 1, 4, 12), new MeshBasicMaterial()));
+
+/** As much of an element as handles need. */
+class FakeElement extends EventTarget {
+  readonly style: Record<string, string> = {};
+  readonly dataset: Record<string, string> = {};
+  readonly children: FakeElement[] = [];
+  clientWidth = 100;
+  clientHeight = 100;
+  id = '';
+  textContent = '';
+  hidden = false;
+  append(...added: FakeElement[]): void {
+    this.children.push(...added);
+  }
+  remove(): void {}
+  matches(): boolean {
+    return false;
+  }
+  setAttribute(): void {}
+  removeAttribute(): void {}
+  toggleAttribute(): void {}
+}
+
+const before = globalThis.document;
+
+beforeAll(async () => {
+  Object.assign(globalThis, { document: { createElement: () => new FakeElement() } });
+  hb = await load();
+  body = await hb.bake(meshFromObject(model()).mesh, { centers: 30, resolution: 24, spheres: 4 });
+});
+
+afterAll(() => {
+  Object.assign(globalThis, { document: before });
+});
+
+function make(object = model()) {
+  const camera = new PerspectiveCamera(40, 1, 0.1, 50);
+  camera.position.set(0, 0, 6);
+  camera.updateMatrixWorld();
+  return draggable(object, body, { hb, camera, container: new FakeElement() as unknown as HTMLElement });
+}
+
+/** Until it has settled. */
+function settle(drag: ReturnType<typeof make>): void {
+  for (let i = 0; i < 400 && drag.update(); i++);
+}
+
+describe('draggable', () => {
+  it('spreads six handles over the body, and follows the one that is moved', () => {
+    const drag = make();
+    expect(drag.handles.length).toBe(6);
+    const { vertex } = drag.handles[0] as { vertex: number };
+    const to = drag.target(0).add(new Vector3(0.2, 0.1, 0));
+    drag.setTarget(0, to);
+    settle(drag);
+    expect(drag.vertex(vertex).distanceTo(to)).toBeLessThan(0.01);
+    expect(drag.overlay.description(0)).toMatch(/^moved by \d/);
+    drag.reset();
+    settle(drag);
+    expect(drag.vertex(vertex).distanceTo(new Vector3().fromArray(body.mesh.positions, 3 * vertex))).toBeLessThan(0.01);
+    expect(drag.overlay.description(0)).toBe('at rest');
+    drag.dispose();
+  });
+
+  it('takes targets in the object’s space, wherever the object stands', () => {
+    const [here, there] = [model(), model()];
+    there.position.set(3, -2, 1);
+    there.rotation.set(0.4, 1, -0.2);
+    there.scale.setScalar(2.5);
+    there.updateMatrixWorld();
+    const drags = [make(here), make(there)];
+    for (const drag of drags) {
+      drag.setTarget(1, drag.target(1).add(new Vector3(0.1, 0, 0.1)));
+      settle(drag);
+    }
+    expect(drags[1]?.positions).toEqual(drags[0]?.positions);
+    for (const each of drags) each.dispose();
+  });
+
+  it('refuses a body of another mesh, and handles that lie outside; the former ones stay', () => {
+    const other = new Group().add(new Mesh(new CapsuleGeometry(0.4, 1, 4, 12), new MeshBasicMaterial()));
+    expect(() => make(other)).toThrow(/another mesh/);
+    const drag = make();
+    expect(() => drag.setHandles([{ at: [9, 9, 9] }])).toThrow();
+    expect(drag.handles.length).toBe(6);
+    settle(drag);
+    drag.dispose();
+  });
+
+  it('puts the object’s geometry back, and gives back the solver’s memory', () => {
+    const object = model();
+    const [mesh] = object.children as [Mesh];
+    const { geometry } = mesh;
+    const memory: number[] = [];
+    for (let i = 0; i < 20; i++) {
+      const drag = make(object);
+      expect(mesh.geometry).not.toBe(geometry);
+      drag.dispose();
+      drag.dispose();
+      expect(mesh.geometry).toBe(geometry);
+      memory.push(hb.memory);
+    }
+    expect(memory.at(-1)).toBe(memory[4]);
+  });
+});

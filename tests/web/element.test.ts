@@ -1,0 +1,270 @@
+/** The elements on somebody else's page: one script, one tag. */
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { HandleBodyElement } from '../../web/element/index.ts';
+import { ball, glb } from './support/files.ts';
+import { violations } from './support/manners.ts';
+import { frames, launch, loseContext, soon } from './support/studio.ts';
+import { eventsOf, loaded, tagPage } from './support/tag-page.ts';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+
+const SIZE = 'style="display: block; width: 32rem; aspect-ratio: 4 / 3"';
+const PAW = 1172;
+const dog = (more = '') =>
+  `<handle-body src="dog.glb" alt="A dog" handles="Paw: ${PAW}, Nose: 13637" ${more} ${SIZE}></handle-body>`;
+type Place = readonly [number, number, number];
+
+const { positions, indices } = ball();
+const raw = { 'ball.glb': glb({ positions, indices }) };
+
+const vertex = (page: Page, v: number): Promise<Place> =>
+  page.evaluate((at) => (document.querySelector('handle-body') as HandleBodyElement).vertex(at) as [number, number, number], v);
+const handle = (page: Page, i: number) => page.locator('handle-body [part=handle]').nth(i);
+const apart = (a: readonly number[], b: readonly number[]) => Math.hypot(...a.map((x, k) => x - (b[k] as number)));
+
+/** Until the shape has been the same for a few frames. */
+async function still(page: Page, v: number): Promise<Place> {
+  let [before, now] = [[] as readonly number[], await vertex(page, v)];
+  while (before.length === 0 || apart(before, now) > 1e-6) {
+    before = now;
+    await frames(page, 6);
+    now = await vertex(page, v);
+  }
+  return now;
+}
+
+async function drag(page: Page, i: number, dx: number, dy: number): Promise<void> {
+  const box = (await handle(page, i).boundingBox()) as { x: number; y: number; width: number; height: number };
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx, y + dy, { steps: 4 });
+  await page.mouse.up();
+}
+
+describe('one tag, with a script from another origin', () => {
+  it('shows a dog whose paw comes along when it is dragged, by pointer and by keys, and says where to', async () => {
+    const { page, said } = await tagPage(browser, dog('controls'));
+    await loaded(page);
+    const rest = await still(page, PAW);
+    await drag(page, 0, 40, -60);
+    const dragged = await still(page, PAW);
+    expect(apart(rest, dragged)).toBeGreaterThan(0.1);
+    const [type, detail] = (await eventsOf(page)).at(-1) as [string, { index: number; name: string; to: number[] }];
+    expect([type, detail.index, detail.name]).toEqual(['change', 0, 'Paw']);
+    expect(apart(detail.to, dragged)).toBeLessThan(0.01);
+    await handle(page, 0).focus();
+    await page.keyboard.press('ArrowUp');
+    const nudged = await still(page, PAW);
+    expect(nudged[1] - dragged[1]).toBeGreaterThan(0.01);
+    // Once it has come to rest it is told where the handle goes.
+    await soon(() => page.locator('handle-body [role=status].unseen').textContent()).toMatch(/^Paw: moved by [\d.]+ %/);
+    await page.keyboard.press('Home');
+    expect(apart(await still(page, PAW), rest)).toBeLessThan(0.01);
+    expect(said).toEqual([]);
+  });
+
+  it('shifts nothing when it comes, and axe finds nothing, light and dark', async () => {
+    const { page } = await tagPage(browser, dog('controls'), {
+      before: () => {
+        const shifts: number[] = [];
+        Object.assign(globalThis, { shifts });
+        new PerformanceObserver((list) => {
+          for (const entry of list.getEntries()) shifts.push((entry as PerformanceEntry & { value: number }).value);
+        }).observe({ type: 'layout-shift', buffered: true });
+      },
+    });
+    await loaded(page);
+    expect(await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts)).toEqual([]);
+    expect(await violations(page)).toEqual([]);
+    await page.emulateMedia({ colorScheme: 'dark' });
+    expect(await violations(page)).toEqual([]);
+  });
+
+  it('bakes a model that was never baked in a worker, and says how far it is', async () => {
+    const { page, said } = await tagPage(browser, `<handle-body src="ball.glb" alt="A ball" ${SIZE}></handle-body>`, {
+      files: raw,
+    });
+    const workers: string[] = [];
+    page.on('worker', (worker) => workers.push(worker.url()));
+    await loaded(page);
+    expect(workers.length).toBe(1);
+    expect(await handle(page, 5).count()).toBe(1);
+    const parts = await page.evaluate(() =>
+      (document as unknown as { told: [string, { part: number }][] }).told.flatMap(([type, detail]) =>
+        type === 'progress' ? [detail.part] : [],
+      ),
+    );
+    expect(parts.at(-1)).toBe(1);
+    const { to } = await page.evaluate(() => {
+      const body = document.querySelector('handle-body') as HandleBodyElement;
+      const [x, y, z] = body.targets[0] as [number, number, number];
+      body.targets = [[x, y + 0.2, z]];
+      return { to: [x, y + 0.2, z] };
+    });
+    await frames(page, 30);
+    expect(await page.evaluate(() => (document.querySelector('handle-body') as HandleBodyElement).targets[0])).toEqual(to);
+    expect(said).toEqual([]);
+  });
+});
+
+describe('manners on the page', () => {
+  it('a wheel over the picture scrolls the page; with Ctrl it zooms', async () => {
+    const { page } = await tagPage(browser, dog());
+    await loaded(page);
+    const box = (await page.locator('handle-body').boundingBox()) as { x: number; y: number };
+    await page.mouse.move(box.x + 200, box.y + 150);
+    const before = await handle(page, 0).boundingBox();
+    await page.mouse.wheel(0, 120);
+    await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.keyboard.down('Control');
+    await page.mouse.wheel(0, -240);
+    await page.keyboard.up('Control');
+    await frames(page, 6);
+    expect(await page.evaluate(() => scrollY)).toBe(0);
+    expect((await handle(page, 0).boundingBox())?.y).not.toBeCloseTo(before?.y ?? 0, 0);
+  });
+
+  it('many on one page share one WebGL context; nothing is drawn at rest, nor off-screen', async () => {
+    const tags = Array.from({ length: 6 }, () => dog()).join('');
+    const { page } = await tagPage(browser, tags, {
+      before: () => {
+        const counts = { contexts: 0, draws: 0 };
+        Object.assign(globalThis, { counts });
+        const original = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: unknown[]) {
+          const known = (original as (...all: unknown[]) => unknown).apply(this, args);
+          if (args[0] === 'webgl2' && !(this as { seen?: boolean }).seen) {
+            counts.contexts++;
+            Object.assign(this, { seen: true });
+          }
+          return known;
+        } as never;
+        const drawn = CanvasRenderingContext2D.prototype.drawImage;
+        CanvasRenderingContext2D.prototype.drawImage = function (this: CanvasRenderingContext2D, ...args: never[]) {
+          counts.draws++;
+          return (drawn as (...all: never[]) => void).apply(this, args);
+        } as never;
+      },
+    });
+    const counts = () =>
+      page.evaluate(() => ({ ...(globalThis as unknown as { counts: { contexts: number; draws: number } }).counts }));
+    await loaded(page);
+    await still(page, PAW);
+    expect((await counts()).contexts).toBe(1);
+    const { draws } = await counts();
+    await frames(page, 20);
+    expect((await counts()).draws).toBe(draws);
+    // Off-screen it takes its targets, and draws when it is back.
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    await frames(page, 10);
+    const away = (await counts()).draws;
+    await page.evaluate(() => {
+      const body = document.querySelector('handle-body') as HandleBodyElement;
+      body.targets = body.targets.map(([x, y, z]) => [x, y + 0.1, z]);
+    });
+    await frames(page, 20);
+    expect((await counts()).draws).toBe(away);
+    await page.evaluate(() => scrollTo(0, 0));
+    await soon(async () => (await counts()).draws).toBeGreaterThan(away);
+  });
+
+  it('gives all back but its state ten seconds after it has left the window, and comes again as it was', async () => {
+    const { page } = await tagPage(browser, dog());
+    await page.clock.install();
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    const dragged = await still(page, PAW);
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    await frames(page, 6);
+    await page.clock.fastForward(11_000);
+    expect(await page.evaluate(() => (document.querySelector('handle-body') as HandleBodyElement).loaded)).toBe(false);
+    expect(await handle(page, 0).count()).toBe(0);
+    await page.evaluate(() => scrollTo(0, 0));
+    await loaded(page);
+    expect(apart(await still(page, PAW), dragged)).toBeLessThan(0.01);
+  });
+
+  it('a lost context comes back by itself, with the shape that it had', async () => {
+    const { page } = await tagPage(browser, dog(), {
+      before: () => {
+        const original = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: unknown[]) {
+          const context = (original as (...all: unknown[]) => unknown).apply(this, args);
+          if (args[0] === 'webgl2')
+            Object.assign(globalThis, { extension: (context as WebGL2RenderingContext).getExtension('WEBGL_lose_context') });
+          return context;
+        } as never;
+      },
+    });
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    const dragged = await still(page, PAW);
+    await loseContext(page);
+    await frames(page, 6);
+    expect(apart(await still(page, PAW), dragged)).toBeLessThan(1e-4);
+    expect(await page.locator('handle-body .note').isVisible()).toBe(false);
+  });
+});
+
+describe('what goes wrong', () => {
+  const POSTER = '<img slot="poster" src="data:image/gif;base64,R0lGODlhAQABAAAAACw=" alt="">';
+  it.each([
+    ['a file that is not there', 'none.glb', 'file-unreadable', {}],
+    ['a web page instead of a model', 'page.glb', 'file-not-glb', { 'page.glb': '<!doctype html><title>404</title>' }],
+    ['half a model', 'half.glb', 'file-truncated', { 'half.glb': raw['ball.glb'].subarray(0, 400) }],
+  ])('%s is said in place and as an event, and the poster stays', async (_, src, code, files) => {
+    const { page } = await tagPage(browser, `<handle-body src="${src}" alt="A dog" ${SIZE}>${POSTER}</handle-body>`, { files });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', code]]);
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    expect(await violations(page)).toEqual([]);
+  });
+
+  it('handles that are none are quoted, and the body keeps its former ones', async () => {
+    const { page } = await tagPage(browser, dog());
+    await loaded(page);
+    for (const [text, code] of [
+      ['nose', 'invalid-handles'],
+      ['99999999', 'handle-out-of-range'],
+      ['Far: 50 50 50', 'handle-outside'],
+    ] as const) {
+      await page.evaluate((handles) => document.querySelector('handle-body')?.setAttribute('handles', handles), text);
+      await page.locator('handle-body [part=message]').waitFor();
+      expect((await eventsOf(page)).at(-1)?.[1]?.code).toBe(code);
+      expect(await page.locator('handle-body [part=handle]').count()).toBe(2);
+    }
+    await page.evaluate((v) => document.querySelector('handle-body')?.setAttribute('handles', `Tail: ${v}`), 3169);
+    await soon(() => page.locator('handle-body [part=handle]').count()).toBe(1);
+    expect(await page.locator('handle-body [part=message]').isVisible()).toBe(false);
+  });
+
+  it('a model that did not come at first comes by Try again', async () => {
+    const { page } = await tagPage(browser, dog());
+    await page.route('**/dog.glb', (route) => route.abort());
+    await page.reload();
+    await page.locator('handle-body [part=message]').waitFor();
+    await page.unroute('**/dog.glb');
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await loaded(page);
+    expect(await page.locator('handle-body [part=message]').isVisible()).toBe(false);
+  });
+});
+
+it('nothing is fetched until it is asked for, where it is to be revealed by hand', async () => {
+  const { page } = await tagPage(browser, dog('reveal="manual"'));
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.getByRole('button', { name: 'Show' }).waitFor();
+  await frames(page, 10);
+  expect(asked.filter((url) => /glb|runtime|showing/.test(url))).toEqual([]);
+  await page.getByRole('button', { name: 'Show' }).click();
+  await loaded(page);
+  expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+});

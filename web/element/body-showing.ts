@@ -1,0 +1,226 @@
+import type { Object3D } from 'three';
+import type { BodyData } from '../../wasm/ts/runtime.ts';
+import type { Mesh } from '../../wasm/ts/types.ts';
+import { cameraTools } from '../stage/camera-tools.ts';
+import { sharedEasel } from '../stage/easel.ts';
+import { View } from '../stage/view.ts';
+import { type Draggable, draggable } from '../three/draggable.ts';
+import { fetchModel } from '../three/fetch-model.ts';
+import { meshFromObject } from '../three/geometry.ts';
+import { loadModel } from '../three/load-model.ts';
+import { h } from '../ui/dom.ts';
+import { noteIn } from '../ui/note.ts';
+import type { Progress } from '../ui/progress.ts';
+import type { AskedHandle } from './handles-text.ts';
+import { runtime } from './runtime.ts';
+
+type Place = readonly [x: number, y: number, z: number];
+
+/** A handle was moved: the detail of the event "change". */
+export interface HandleChange {
+  readonly index: number;
+  readonly name: string;
+  /** Where it is to go, in the model's own units. */
+  readonly to: readonly [x: number, y: number, z: number];
+}
+
+/** All that is kept of a body that is given back. */
+export interface BodyState {
+  readonly handles: readonly AskedHandle[];
+  readonly targets: readonly Place[];
+  readonly camera: { readonly position: readonly number[]; readonly target: readonly number[] };
+}
+
+interface BodyOptions {
+  readonly src: URL;
+  readonly alt: string;
+  readonly stage: HTMLElement;
+  readonly handles: readonly AskedHandle[] | undefined;
+  readonly camera: string;
+  readonly controls: boolean;
+  readonly state: BodyState | undefined;
+  readonly progress: Progress;
+  readonly signal: AbortSignal;
+  readonly onPart: (part: number | undefined) => void;
+  readonly onFirst: () => void;
+  readonly onChange: (change: HandleChange) => void;
+  readonly onError: (error: unknown) => void;
+  readonly onGood: () => void;
+}
+
+const VIEW = { azimuth: 40, elevation: 14 };
+
+/** Fetches a model, shows it, bakes it where it is not baked, and lets it be dragged. Throws what is to be told; nothing is left behind then. */
+export async function showBody(options: BodyOptions): Promise<BodyShowing> {
+  const { src, signal, progress } = options;
+  const tell = (part: number | undefined) => {
+    progress.set(part);
+    options.onPart(part);
+  };
+  progress.begin('Loading the model…');
+  const model = await loadModel(await fetchModel(src, signal, tell));
+  const showing = new BodyShowing(model.object, options);
+  try {
+    // The first picture waits for nothing else.
+    options.onFirst();
+    const body = model.body ?? (await bake(meshFromObject(model.object).mesh, progress, signal, tell));
+    const hb = await runtime();
+    signal.throwIfAborted();
+    showing.bring(hb, body);
+    return showing;
+  } catch (error) {
+    showing.dispose();
+    throw error;
+  }
+}
+
+async function bake(mesh: Mesh, progress: Progress, signal: AbortSignal, onProgress: (part: number) => void): Promise<BodyData> {
+  progress.begin('Finding the inside of the model…');
+  const { bakeInWorker } = await import('../worker/bake-in-worker.ts');
+  try {
+    return await bakeInWorker(mesh, { signal, onProgress });
+  } catch (error) {
+    // A sheet has no inside to measure in; distances through the air serve it.
+    if ((error as { code?: unknown }).code !== 'mesh-no-interior') throw error;
+    return bakeInWorker(mesh, { signal, onProgress, distance: 'euclidean' });
+  }
+}
+
+/** A model on the page, in a view of its own. */
+export class BodyShowing {
+  readonly #options: BodyOptions;
+  readonly #object: Object3D;
+  readonly #view: View;
+  readonly #viewport: HTMLElement;
+  readonly #container = h('div', { class: 'handles' });
+  readonly #tools: HTMLElement;
+  /** Where the chosen handle goes, for those who do not see it: at the end of a move, not during it. */
+  readonly #spoken = h('p', { class: 'unseen', role: 'status' });
+  readonly #frame: HTMLElement;
+  #speaking: ReturnType<typeof setTimeout> | undefined;
+  #drag: Draggable | undefined;
+  readonly #step = () => this.#advance();
+
+  constructor(object: Object3D, options: BodyOptions) {
+    [this.#object, this.#options] = [object, options];
+    const canvas = h('canvas', { part: 'canvas' });
+    this.#viewport = h('div', { class: 'viewport', part: 'viewport', role: 'application' }, canvas, this.#container);
+    const note = h('p', { class: 'note', role: 'status', hidden: true });
+    this.#frame = h('div', { class: 'stage' }, this.#viewport, note, this.#spoken);
+    options.stage.replaceChildren(this.#frame);
+    this.#view = new View(canvas, this.#viewport, sharedEasel());
+    this.#view.onInterrupted = noteIn(note);
+    this.#view.onDrawn = () => this.#drag?.place();
+    this.#tools = cameraTools(this.#view, this.#viewport);
+    this.#tools.setAttribute('part', 'controls');
+    this.#frame.append(this.#tools);
+    this.controls = options.controls;
+    this.alt = options.alt;
+    this.#view.show(object);
+    this.look(options.camera);
+    if (options.state) this.#recall(options.state.camera);
+  }
+
+  /** What is not seen draws nothing. */
+  see(seen: boolean): void {
+    this.#view.sleep(!seen);
+  }
+
+  set alt(words: string) {
+    const keys = 'Arrow keys turn the view, plus and minus zoom, Home shows all.';
+    this.#viewport.ariaLabel = `${words || 'A model that can be deformed'}. ${keys}`;
+  }
+
+  set controls(shown: boolean) {
+    this.#tools.hidden = !shown;
+  }
+
+  get handles(): readonly AskedHandle[] {
+    return this.#drag?.handles ?? this.#options.state?.handles ?? this.#options.handles ?? [];
+  }
+
+  get state(): BodyState {
+    const drag = this.#drag;
+    const targets = drag ? drag.handles.map((_, i) => drag.target(i).toArray() as Place) : [];
+    const { camera, controls } = this.#view;
+    return { handles: this.handles, targets, camera: { position: camera.position.toArray(), target: controls.target.toArray() } };
+  }
+
+  /** From where it is seen: "58deg 14deg". */
+  look(angles: string): void {
+    const [azimuth = VIEW.azimuth, elevation = VIEW.elevation] = (angles.match(/-?[\d.]+/g) ?? []).map(Number);
+    this.#view.frame(this.#object, { azimuth, elevation }, true);
+  }
+
+  /** The body has come: from now on it can be dragged. */
+  bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData): void {
+    const { state, handles, onError } = this.#options;
+    const asked = state?.handles ?? handles;
+    const drag = draggable(this.#object, body, {
+      hb,
+      camera: this.#view.camera,
+      container: this.#container,
+      onWake: () => this.#view.animate(this.#step),
+      onMove: (i) => this.#moved(i),
+      onSelect: () => this.#view.invalidate(),
+      onError,
+      ...(asked && { handles: asked }),
+    });
+    this.#drag = drag;
+    for (let i = 0; i < drag.handles.length; i++) drag.overlay.element(i)?.setAttribute('part', 'handle');
+    if (state) this.move(state.targets);
+    this.#view.animate(this.#step);
+  }
+
+  /** Other handles, at rest. Throws what the solver throws, and the former ones stay. */
+  hold(handles: readonly AskedHandle[]): void {
+    this.#drag?.setHandles(handles);
+    for (let i = 0; i < handles.length; i++) this.#drag?.overlay.element(i)?.setAttribute('part', 'handle');
+  }
+
+  move(targets: readonly Place[]): void {
+    const drag = this.#drag;
+    if (!drag) return;
+    for (const [i, place] of targets.entries()) if (i < drag.handles.length) drag.setTarget(i, drag.target(i).set(...place));
+  }
+
+  reset(): void {
+    this.#drag?.reset();
+  }
+
+  vertex(v: number): Place | undefined {
+    return this.#drag?.vertex(v).toArray();
+  }
+
+  dispose(): void {
+    clearTimeout(this.#speaking);
+    this.#drag?.dispose();
+    this.#view.dispose();
+    this.#frame.remove();
+  }
+
+  #advance(): boolean {
+    const goesOn = this.#drag?.advance() ?? false;
+    this.#view.changed();
+    return goesOn;
+  }
+
+  #recall({ position, target }: BodyState['camera']): void {
+    this.#view.camera.position.fromArray(position);
+    this.#view.controls.target.fromArray(target);
+    this.#view.controls.update();
+  }
+
+  #moved(i: number): void {
+    const drag = this.#drag;
+    if (!drag) return;
+    this.#options.onGood();
+    const name = drag.handles[i]?.name ?? `Handle ${i + 1}`;
+    const to = drag.target(i).toArray() as Place;
+    this.#options.onChange({ index: i, name, to });
+    clearTimeout(this.#speaking);
+    this.#speaking = setTimeout(() => {
+      this.#spoken.textContent = `${name}: ${drag.overlay.description(i)}.`;
+    }, 700);
+  }
+}

@@ -1,0 +1,243 @@
+import { button, h } from '../ui/dom.ts';
+import { explain } from '../ui/explain.ts';
+import { isAbort } from '../ui/messages.ts';
+import { PageError } from '../ui/page-error.ts';
+import { Progress } from '../ui/progress.ts';
+import { STYLES } from './styles.generated.ts';
+
+/** On a server there are no elements: importing the module is safe there, and defines nothing. */
+const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
+
+/** Milliseconds off-screen after which all but the state is given back. */
+const FORGET = 10_000;
+/** How near to the window an element is when it begins to load. */
+const NEAR = '300px';
+
+/** What an element shows, once it is there. */
+export interface Showing {
+  /** What is not seen draws nothing. */
+  see(seen: boolean): void;
+  /** Leaves nothing behind. */
+  dispose(): void;
+}
+
+/** What went wrong: the detail of the event "error". */
+export interface ElementError {
+  readonly code: string;
+  readonly message: string;
+  readonly remedy: string;
+}
+
+let sheet: CSSStyleSheet | undefined;
+
+/**
+ * What the elements have in common: they load when they come near the window, sleep when they leave it, show a poster, their progress and,
+ * in a sentence, what went wrong, and give back what they hold.
+ *
+ * Attributes: `alt`, `poster`, `loading` ("lazy", the default, or "eager"), `reveal` ("auto", or "manual": when asked for).
+ * Events: `progress`, `load`, `error`. Slots: `poster`, `progress`. Parts: `poster`, `progress`, `message`.
+ */
+export abstract class ElementBase extends Base {
+  static observedAttributes: readonly string[] = ['alt', 'poster', 'loading', 'reveal'];
+
+  /** Over the poster and the message. */
+  readonly stage: HTMLElement;
+  protected readonly progress: Progress;
+  readonly #poster = h('div', { class: 'poster', part: 'poster' });
+  readonly #message = h('div', { class: 'message', part: 'message', role: 'alert', hidden: true });
+  /** Of all the time that the element is in the page. */
+  #connected: AbortController | undefined;
+  #work: AbortController | undefined;
+  #showing: Showing | undefined;
+  #forgetting: ReturnType<typeof setTimeout> | undefined;
+  #isSeen = false;
+  #isNear = false;
+  /** A poster that waits to be taken away by hand. */
+  #isHeld = false;
+  #failed = false;
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: 'open', delegatesFocus: false });
+    sheet ??= makeSheet();
+    root.adoptedStyleSheets = [sheet];
+    this.stage = h('div', { class: 'stage' });
+    const bar = h('div', { class: 'progress', hidden: true });
+    this.progress = new Progress(bar);
+    const slot = h('slot', { name: 'progress' }, bar);
+    this.#poster.append(h('slot', { name: 'poster' }));
+    root.append(this.stage, this.#poster, h('div', { part: 'progress' }, slot), this.#message);
+  }
+
+  get alt(): string {
+    return this.getAttribute('alt') ?? '';
+  }
+
+  set alt(words: string) {
+    this.setAttribute('alt', words);
+  }
+
+  /** Whether what was asked for last is shown. */
+  get loaded(): boolean {
+    return this.#showing !== undefined && !this.#work;
+  }
+
+  connectedCallback(): void {
+    const connected = new AbortController();
+    this.#connected?.abort();
+    this.#connected = connected;
+    this.#isHeld = this.getAttribute('reveal') === 'manual';
+    this.#showPoster();
+    const near = new IntersectionObserver((entries) => this.#near(entries.at(-1)?.isIntersecting === true), { rootMargin: NEAR });
+    const seen = new IntersectionObserver((entries) => this.#see(entries.at(-1)?.isIntersecting === true));
+    near.observe(this);
+    seen.observe(this);
+    connected.signal.addEventListener('abort', () => {
+      near.disconnect();
+      seen.disconnect();
+    });
+    if (this.getAttribute('loading') === 'eager') this.#begin();
+  }
+
+  disconnectedCallback(): void {
+    // One that is only moved comes back in the same turn.
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      this.#connected?.abort();
+      this.#connected = undefined;
+      this.#forget();
+    });
+  }
+
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    if (before === now || !this.isConnected) return;
+    if (name === 'poster') this.#showPoster();
+    else if (name === 'reveal' && now !== 'manual') this.dismissPoster();
+    else if (name === 'loading' && now === 'eager') this.#begin();
+    else this.changed(name);
+  }
+
+  /** Takes the poster away, and loads what is under it. */
+  dismissPoster(): void {
+    this.#isHeld = false;
+    this.#begin();
+    if (this.#showing) this.#poster.hidden = true;
+  }
+
+  /** Makes what is to be shown; `this.first` when there is a picture. Throws what is to be told. */
+  protected abstract open(signal: AbortSignal): Promise<Showing>;
+
+  /** An attribute of the element's own is another one. */
+  protected abstract changed(attribute: string): void;
+
+  /** There is a picture: the poster goes. */
+  protected first(): void {
+    if (!this.#isHeld) this.#poster.hidden = true;
+  }
+
+  /** Something else is to be shown: what is there stays until that has come. */
+  protected again(): void {
+    this.#failed = false;
+    this.#work?.abort();
+    this.#work = undefined;
+    if (this.#showing || this.#isNear || this.getAttribute('loading') === 'eager') this.#begin(true);
+  }
+
+  /** Says what went wrong, in place and as an event. What is shown stays. */
+  protected tell(error: unknown, again?: () => void): void {
+    const { message, remedy, detail } = explain(error);
+    const close = button('×', () => this.quiet(), 'dismiss', { 'aria-label': 'Dismiss this message' });
+    const retry = again ? [button('Try again', again)] : [];
+    const words = h('div', {}, h('p', { class: 'sentence' }, message), h('p', { class: 'remedy' }, remedy), ...retry);
+    this.#message.replaceChildren(words, close);
+    this.#message.hidden = false;
+    const code = (error as { code?: unknown }).code;
+    const told: ElementError = { code: typeof code === 'string' ? code : (detail ?? 'internal'), message, remedy };
+    this.dispatchEvent(new CustomEvent('error', { detail: told }));
+  }
+
+  protected quiet(): void {
+    this.#message.hidden = true;
+    this.#message.replaceChildren();
+  }
+
+  #near(isNear: boolean): void {
+    this.#isNear = isNear;
+    if (isNear) this.#begin();
+  }
+
+  #see(isSeen: boolean): void {
+    this.#isSeen = isSeen;
+    clearTimeout(this.#forgetting);
+    if (this.#showing) this.#showing.see(isSeen);
+    if (!isSeen && this.#showing) this.#forgetting = setTimeout(() => this.#forget(), FORGET);
+  }
+
+  /** Gives back all but the state; it comes again when it is near. */
+  #forget(): void {
+    clearTimeout(this.#forgetting);
+    this.#work?.abort();
+    this.#work = undefined;
+    this.#showing?.dispose();
+    this.#showing = undefined;
+    this.progress.end();
+    this.#showPoster();
+  }
+
+  #begin(anew = false): void {
+    if (this.#work || this.#failed || this.#isHeld || !this.isConnected) return;
+    if (anew || !this.#showing) void this.#bring();
+  }
+
+  async #bring(): Promise<void> {
+    const work = new AbortController();
+    this.#work = work;
+    this.ariaBusy = 'true';
+    try {
+      const showing = await this.open(work.signal);
+      if (work.signal.aborted) {
+        showing.dispose();
+        return;
+      }
+      this.#showing?.dispose();
+      this.#showing = showing;
+      this.#work = undefined;
+      this.first();
+      this.quiet();
+      this.dispatchEvent(new CustomEvent('load'));
+      // It may have left while it came.
+      this.#see(this.#isSeen);
+    } catch (error) {
+      if (work.signal.aborted && this.#work !== work) return;
+      this.#failed = true;
+      this.#work = undefined;
+      this.tell(isAbort(error) ? cancelled() : error, () => {
+        this.quiet();
+        this.again();
+      });
+    } finally {
+      if (!this.#work) {
+        this.progress.end();
+        this.ariaBusy = 'false';
+      }
+    }
+  }
+
+  #showPoster(): void {
+    this.#poster.hidden = this.#showing !== undefined;
+    const address = this.getAttribute('poster');
+    const picture = address ? [h('img', { src: address, alt: this.alt })] : [];
+    const reveal = this.#isHeld ? [button('Show', () => this.dismissPoster(), 'button')] : [];
+    this.#poster.replaceChildren(h('slot', { name: 'poster' }, ...picture), ...reveal);
+  }
+}
+
+function makeSheet(): CSSStyleSheet {
+  const made = new CSSStyleSheet();
+  made.replaceSync(STYLES);
+  return made;
+}
+
+function cancelled(): PageError {
+  return new PageError('cancelled', 'It was not prepared.', 'Ask for it again when you want to see it.');
+}
