@@ -40,7 +40,7 @@ export const LAYERS = {
   'wasm/core/irbf': { may: [...FLOOR_1, ...FLOOR_2] },
   'wasm/core/posespace': { may: [...FLOOR_1, ...FLOOR_2] },
   'wasm/abi': { may: CORE },
-  'wasm/ts': { may: [], packages: [], lazy: ['node:'], never: ['three', GLTF], globals: ['document', 'window'] },
+  'wasm/ts': { may: [], packages: [], never: ['three', GLTF], globals: ['document', 'window'] },
   'web/assets': { may: ['wasm/ts'], packages: [GLTF], lazy: ['meshoptimizer'], never: ['three'] },
   'web/models': { may: ['wasm/ts'], packages: ['delaunator', 'd3-contour'], never: ['three', GLTF] },
   'web/three': { may: ['wasm/ts', 'web/assets', 'web/ui'], packages: ['three'], never: [GLTF] },

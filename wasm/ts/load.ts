@@ -90,11 +90,19 @@ function imports(module: WebAssembly.Module, kernels: HostKernels): WebAssembly.
 }
 
 async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<BufferSource> {
-  if (url.protocol === 'file:') {
-    const { readFile } = await import(/* @vite-ignore */ 'node:fs/promises');
-    return new Uint8Array(await readFile(url));
-  }
+  const files = url.protocol === 'file:' && fileSystem();
+  if (files) return new Uint8Array(await files.readFile(url));
   const response = await fetch(url, signal ? { signal } : {});
   if (!response.ok) throw new Error(`${url.href} answered ${response.status}`);
   return response.arrayBuffer();
+}
+
+interface FileSystem {
+  readFile(file: URL): Promise<Uint8Array>;
+}
+
+/** Node's, which fetches no files; asked for by name at run time, since bundlers for browsers would look for what is imported. */
+function fileSystem(): FileSystem | undefined {
+  const { process } = globalThis as { process?: { getBuiltinModule?(name: string): FileSystem } };
+  return process?.getBuiltinModule?.('node:fs/promises');
 }
