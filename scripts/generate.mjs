@@ -125,19 +125,28 @@ ${exportSignatures(abi, 'HB_WHOLE_API')}
  */
 function stylesOf(files) {
   const css = files.map((file) => readFileSync(at(file), 'utf8')).join('\n');
-  return css
-    .replace(/\/\*[\s\S]*?\*\//g, '')
-    .replaceAll(':root', ':host')
-    .replace(/^(?!@media).*$/gm, (line) => line.replace(/(-?[\d.]+)rem\b/g, 'calc($1 * var(--rem))'))
-    .replace(/\s+/g, ' ')
-    .trim();
+  return (
+    css
+      .replace(/\/\*[\s\S]*?\*\//g, '')
+      .replaceAll(':root', ':host')
+      // As the page around has it.
+      .replace('color-scheme: light dark;', '')
+      .replace(/^(?!@).*$/gm, (line) => line.replace(/(-?[\d.]+)rem\b/g, 'calc($1 * var(--rem))'))
+      .replace(/\s+/g, ' ')
+      .trim()
+  );
 }
 
 const ELEMENT_STYLES = ['tokens', 'base', 'stage', 'handles', 'messages'].map((name) => `web/styles/${name}.css`);
+const FIGURE_STYLES = [
+  ...['bar', 'palette', 'chart', 'points', 'field'].map((name) => `web/styles/${name}.css`),
+  ...['panel', 'card', 'figure', 'shape'].map((name) => `web/figures/kit/${name}.css`),
+];
 write(
   'web/element/styles.generated.ts',
   `// Generated from web/styles and web/element/element.css by scripts/generate.mjs.
 export const STYLES = ${JSON.stringify(stylesOf([...ELEMENT_STYLES, 'web/element/element.css']))};
+export const FIGURE_STYLES = ${JSON.stringify(stylesOf([...FIGURE_STYLES, 'web/element/figure.css']))};
 `,
 );
 

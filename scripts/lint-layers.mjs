@@ -52,7 +52,7 @@ export const LAYERS = {
   'web/figures/irbf': { may: KIT, packages: ['three'], apart: true },
   'web/figures/skinning': { may: KIT, packages: ['three'], apart: true },
   'web/figures': { may: ['web/figures/kit', 'web/figures/course', 'web/figures/irbf', 'web/figures/skinning'] },
-  'web/element': { may: [...BASE, 'web/ui', 'web/stage'], packages: ['three', GLTF] },
+  'web/element': { may: [...KIT, 'web/figures'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
   'web/learn': {

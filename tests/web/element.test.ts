@@ -1,7 +1,7 @@
 /** The elements on somebody else's page: one script, one tag. */
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import type { HandleBodyElement } from '../../web/element/index.ts';
+import type { HandleBodyElement, HandleFigureElement } from '../../web/element/index.ts';
 import { ball, glb } from './support/files.ts';
 import { violations } from './support/manners.ts';
 import { frames, launch, loseContext, soon } from './support/studio.ts';
@@ -82,7 +82,15 @@ describe('one tag, with a script from another origin', () => {
     await loaded(page);
     expect(await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts)).toEqual([]);
     expect(await violations(page)).toEqual([]);
+    // Dark where the page is, not where only the reader's other pages would be.
+    const paper = () => page.locator('handle-body .message').evaluate((element) => getComputedStyle(element).color);
+    const light = await paper();
     await page.emulateMedia({ colorScheme: 'dark' });
+    expect(await paper()).toBe(light);
+    await page.evaluate(() => {
+      document.documentElement.style.colorScheme = 'light dark';
+    });
+    expect(await paper()).not.toBe(light);
     expect(await violations(page)).toEqual([]);
   });
 
@@ -267,4 +275,59 @@ it('nothing is fetched until it is asked for, where it is to be revealed by hand
   await page.getByRole('button', { name: 'Show' }).click();
   await loaded(page);
   expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+});
+
+describe('<handle-figure>', () => {
+  type Figure = HandleFigureElement & { state: string };
+  const figure = (page: Page, name: string) => page.locator(`handle-figure[name="${name}"]`);
+  const told = (page: Page) =>
+    page.evaluate(() =>
+      Object.fromEntries((document.querySelector('handle-figure') as unknown as Figure).told as [string, unknown][]),
+    );
+
+  it('shows any figure, tells what the solver found, and follows its state', async () => {
+    const tag = '<handle-figure name="course-20" controls caption style="width: 60rem"></handle-figure>';
+    const { page, said } = await tagPage(browser, tag, { viewport: { width: 1100, height: 800 } });
+    await loaded(page, 'handle-figure');
+    await soon(async () => Object.keys(await told(page)).length).toBeGreaterThan(0);
+    const before = await told(page);
+    expect(await violations(page)).toEqual([]);
+    const state = await page.evaluate(() => (document.querySelector('handle-figure') as unknown as Figure).state);
+    expect(state).toMatch(/^v1&/);
+    await figure(page, 'course-20').locator('.controls [type=range]').first().focus();
+    await page.keyboard.press('End');
+    await soon(async () => (await eventsOf(page)).at(-1)?.[0]).toBe('change');
+    const changed = (await eventsOf(page)).at(-1)?.[1]?.state as string;
+    expect(changed).not.toBe(state);
+    await page.evaluate((text) => {
+      (document.querySelector('handle-figure') as unknown as Figure).state = text;
+    }, state);
+    await soon(() => told(page)).toEqual(before);
+    // Nobody's address but the page's own.
+    expect(page.url()).not.toContain('#');
+    expect(said).toEqual([]);
+  });
+
+  it('is as bare as its attributes say, and fits a narrow column', async () => {
+    const tags = '<div style="width: 20rem"><handle-figure name="skinning-1"></handle-figure></div>';
+    const { page } = await tagPage(browser, tags);
+    await loaded(page, 'handle-figure');
+    expect(await figure(page, 'skinning-1').locator('.controls').isVisible()).toBe(false);
+    expect(await figure(page, 'skinning-1').locator('.caption').isVisible()).toBe(false);
+    await page.evaluate(() => document.querySelector('handle-figure')?.setAttribute('controls', ''));
+    const boxes = await figure(page, 'skinning-1').evaluate((element) => {
+      const root = element.shadowRoot as ShadowRoot;
+      const of = (part: string) => (root.querySelector(part) as HTMLElement).getBoundingClientRect();
+      return { stage: of('.figure-stage').toJSON(), controls: of('.controls').toJSON(), width: element.clientWidth };
+    });
+    expect(boxes.controls.top).toBeGreaterThanOrEqual(boxes.stage.bottom);
+    expect(boxes.stage.right).toBeLessThanOrEqual(boxes.stage.left + boxes.width + 1);
+  });
+
+  it('says so where there is no such figure, and which there are', async () => {
+    const { page } = await tagPage(browser, '<handle-figure name="course-99"></handle-figure>');
+    await page.locator('handle-figure [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'unknown-figure']]);
+    expect(await page.locator('handle-figure [part=message]').textContent()).toContain('course-12');
+  });
 });

@@ -1,5 +1,5 @@
 /**
- * The elements: importing "handlebody/element" defines `<handle-body>`.
+ * The elements: importing "handlebody/element" defines `<handle-body>` and `<handle-figure>`.
  *
  * ```html
  * <script type="module" src="handlebody.standalone.js"></script>
@@ -7,17 +7,23 @@
  * ```
  */
 import { HandleBodyElement } from './handle-body.ts';
+import { HandleFigureElement } from './handle-figure.ts';
 
 export type { HandleChange } from './body-showing.ts';
 export type { ElementError } from './element-base.ts';
 export { HandleBodyElement } from './handle-body.ts';
+export { HandleFigureElement } from './handle-figure.ts';
 export type { AskedHandle } from './handles-text.ts';
 
 declare global {
   interface HTMLElementTagNameMap {
     'handle-body': HandleBodyElement;
+    'handle-figure': HandleFigureElement;
   }
 }
 
+const ELEMENTS = { 'handle-body': HandleBodyElement, 'handle-figure': HandleFigureElement };
+
 // Another copy of this package may have come first; on a server there is nothing to define them in.
-if (globalThis.customElements && !customElements.get('handle-body')) customElements.define('handle-body', HandleBodyElement);
+for (const [name, element] of Object.entries(ELEMENTS))
+  if (globalThis.customElements && !customElements.get(name)) customElements.define(name, element);

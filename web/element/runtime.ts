@@ -1,12 +1,20 @@
+import type { Handlebody } from '../../wasm/ts/index.ts';
 import type { HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 
-let coming: Promise<HandlebodyRuntime> | undefined;
-
 /** The solver's smaller link, one instance for all elements of a page, fetched when the first asks for it. */
-export function runtime(): Promise<HandlebodyRuntime> {
-  coming ??= import('../../wasm/ts/runtime.ts').then(({ load }) => load());
-  coming.catch(() => {
-    coming = undefined;
-  });
-  return coming;
+export const runtime = once<HandlebodyRuntime>(() => import('../../wasm/ts/runtime.ts').then(({ load }) => load()));
+
+/** The whole of it, for figures that bake or compute weights. */
+export const whole = once<Handlebody>(() => import('../../wasm/ts/index.ts').then(({ load }) => load()));
+
+/** Asked for again where it did not come. */
+function once<T>(make: () => Promise<T>): () => Promise<T> {
+  let coming: Promise<T> | undefined;
+  return () => {
+    coming ??= make();
+    coming.catch(() => {
+      coming = undefined;
+    });
+    return coming;
+  };
 }

@@ -1,7 +1,7 @@
 import { Box3, MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
-import { onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
+import { isDark, onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
 import { disposeObject } from './dispose-object.ts';
 import { type Easel, easelOf, type PictureSize } from './easel.ts';
 import { fitCamera } from './fit-camera.ts';
@@ -245,7 +245,7 @@ export class View {
     const [width, height] = [this.#area.clientWidth, this.#area.clientHeight];
     if (width === 0 || height === 0) return false;
     this.#area.style.setProperty('--shape', `${width} / ${height}`);
-    this.light.dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    this.light.dark = isDark(this.#area);
     this.#size = { width, height, ratio: pixelRatio() };
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

@@ -14,20 +14,21 @@ export async function notFetched(what: string): Promise<NotFetched> {
 
 /**
  * A part of the program that is fetched when it is first asked for: `lazy(() => import('./part.ts'), 'The part')`. Throws NotFetched where it
- * does not come; it can be asked for again. Who asks says the state, as addresses write it, at which the page may be opened again for that.
+ * does not come; it can be asked for again. Who asks says the state, as addresses write it, at which the page may be opened again for that;
+ * nothing where the page is somebody else's.
  */
-export function lazy<T>(load: () => Promise<T>, what: string): (state: string) => Promise<T> {
+export function lazy<T>(load: () => Promise<T>, what: string): (state: string | undefined) => Promise<T> {
   let coming: Promise<T> | undefined;
   /** Where it did not come from. */
   let address: string | undefined;
   let tries = 0;
-  const fetchPart = async (state: string): Promise<T> => {
+  const fetchPart = async (state: string | undefined): Promise<T> => {
     tries++;
     try {
       // Browsers keep a failed import: it is never fetched again from the same address.
       return address ? ((await import(/* @vite-ignore */ `${address}?try=${tries}`)) as T) : await load();
     } catch (cause) {
-      if (address && (await answers(address))) {
+      if (address && state !== undefined && (await answers(address))) {
         // It is there, but something that it imports did not come, and is kept as failed: only another page asks for that again.
         writeAddress(state);
         location.reload();

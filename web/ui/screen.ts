@@ -3,6 +3,12 @@ import { h } from './dom.ts';
 /** What the colors of a picture may depend on. */
 const COLORS = ['(prefers-color-scheme: dark)', '(forced-colors: active)'];
 
+/** Whether an element is in dark colors: as its page has it, and where that has both, as the reader wants it. */
+export function isDark(element: Element): boolean {
+  const scheme = getComputedStyle(element).colorScheme;
+  return scheme.includes('dark') && (!scheme.includes('light') || matchMedia('(prefers-color-scheme: dark)').matches);
+}
+
 /**
  * Calls `changed` when a picture has to be laid out anew: its element has another size, the window is on a screen with other pixels, the
  * reader's colors are others. Until the signal, or as long as the page. Not for paper, where no script draws in time: there style sheets keep

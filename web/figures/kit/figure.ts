@@ -4,8 +4,8 @@ import type { Former, Mend, Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
 export interface Work<M = unknown> {
-  /** As the page's address says the state: for parts of the program that are fetched when they are needed. */
-  readonly address: string;
+  /** As the page's address says the state, where it does: for parts of the program that are fetched when they are needed. */
+  readonly address: string | undefined;
   /** Aborted when the work is cancelled or something else was asked for. */
   readonly signal: AbortSignal;
   /** The part done, 0 to 1; nothing where nobody knows. */
@@ -30,8 +30,8 @@ export interface Kit<S, M = unknown> {
   change(patch: Partial<S>): void;
   /** Draws with the next frame, though nothing changed: another size, theme or pixel ratio. */
   redraw(): void;
-  /** As the page's address says the state: for parts of the program that are fetched when they are needed. */
-  readonly address: string;
+  /** As the page's address says the state, where it does: for parts of the program that are fetched when they are needed. */
+  readonly address: string | undefined;
   /** Says what went wrong, in the figure's own line. */
   tell(error: unknown): void;
   readonly wait: Wait;

@@ -30,7 +30,7 @@ interface LiveOptions {
   readonly solvers: Solvers;
   /** The state's line of text. */
   readonly state?: string;
-  /** The page's address for such a line; the line itself where this is left out. */
+  /** The page's address for such a line; left out where the page is somebody else's. */
   readonly address?: (text: string) => string;
   /** The state has changed and come to rest. A step back should lead to before it where it is another preset. */
   readonly onChange?: (text: string, preset: boolean) => void;
@@ -79,6 +79,7 @@ export class Live<C extends Channels, M extends Disposable> {
   /** The preset and the title at that. */
   #toldAs = '';
   #disposed = false;
+  #asleep = false;
 
   constructor(figure: Figure<C, M>, options: LiveOptions) {
     this.#figure = figure;
@@ -248,7 +249,7 @@ export class Live<C extends Channels, M extends Disposable> {
     const hb = () => this.#hb as HandlebodyRuntime;
     const made = () => this.#made;
     const state = () => this.#visible;
-    const address = () => this.#options.address?.(this.state) ?? this.state;
+    const address = () => this.#options.address?.(this.state);
     return {
       get hb() {
         return hb();
@@ -325,8 +326,15 @@ export class Live<C extends Channels, M extends Disposable> {
     this.change(state);
   }
 
+  /** What nobody sees draws no frame; what has to be drawn is drawn when it wakes. */
+  sleep(asleep: boolean): void {
+    this.#asleep = asleep;
+    if (!asleep && this.element.dataset.rest === 'no') this.#stir();
+  }
+
   #stir(): void {
     this.element.dataset.rest = 'no';
+    if (this.#asleep) return;
     this.#show();
     if (this.#hb) this.#frame ||= requestAnimationFrame(() => void this.#run());
     this.#restSoon();

@@ -1,0 +1,66 @@
+import type { Told } from '../figures/kit/figure.ts';
+import { ElementBase, type Showing } from './element-base.ts';
+import type { FigureShowing } from './figure-showing.ts';
+
+/**
+ * A live figure: `<handle-figure name="course-12" controls caption></handle-figure>`.
+ *
+ * Attributes besides those of all elements: `name`, of a figure; `state`, one line of text as links and the event "change" have it;
+ * `controls` and `caption`, whether these are shown beside the pictures.
+ * Events: `load`, `error`, and `change` when the figure has come to rest in another state, whose detail is `{ state }`.
+ */
+export class HandleFigureElement extends ElementBase {
+  static override observedAttributes = [...ElementBase.observedAttributes, 'name', 'state', 'controls', 'caption'];
+  #figure: FigureShowing | undefined;
+  /** As it was left when it was given back. */
+  #left: string | undefined;
+
+  get name(): string {
+    return this.getAttribute('name') ?? '';
+  }
+
+  set name(name: string) {
+    this.setAttribute('name', name);
+  }
+
+  /** One line of text; setting it shows what it says, as far as it can be read. */
+  get state(): string {
+    return this.#figure?.state ?? this.#left ?? this.getAttribute('state') ?? '';
+  }
+
+  set state(text: string) {
+    this.#left = text;
+    if (this.#figure) this.#figure.state = text;
+  }
+
+  /** The solver's own numbers: name, and number or sentence. Empty until the figure is ready. */
+  get told(): readonly Told[] {
+    return this.#figure?.told ?? [];
+  }
+
+  protected override async open(signal: AbortSignal): Promise<Showing> {
+    this.progress.begin('Loading the figure…');
+    const { showFigure } = await import('./figure-showing.ts');
+    const figure = await showFigure(this.name, {
+      state: this.state,
+      stage: this.stage,
+      signal,
+      onFirst: () => this.progress.end(),
+      onChange: (state) => this.dispatchEvent(new CustomEvent('change', { detail: { state } })),
+    });
+    this.#figure = figure;
+    const dispose = () => {
+      this.#left = figure.state;
+      if (this.#figure === figure) this.#figure = undefined;
+      figure.dispose();
+    };
+    return { see: (seen) => figure.see(seen), dispose };
+  }
+
+  protected override changed(attribute: string): void {
+    if (attribute === 'name') {
+      this.#left = undefined;
+      this.again();
+    } else if (attribute === 'state') this.state = this.getAttribute('state') ?? '';
+  }
+}
