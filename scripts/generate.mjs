@@ -145,7 +145,7 @@ const FIGURE_STYLES = [
 write(
   'web/element/styles.generated.ts',
   `// Generated from web/styles and web/element/element.css by scripts/generate.mjs.
-export const STYLES = ${JSON.stringify(stylesOf([...ELEMENT_STYLES, 'web/element/element.css']))};
+export const STYLES = ${JSON.stringify(stylesOf([...ELEMENT_STYLES, 'web/element/pad.css', 'web/element/element.css']))};
 export const FIGURE_STYLES = ${JSON.stringify(stylesOf([...FIGURE_STYLES, 'web/element/figure.css']))};
 `,
 );

@@ -1,7 +1,7 @@
 /** The elements on somebody else's page: one script, one tag. */
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import type { HandleBodyElement, HandleFigureElement } from '../../web/element/index.ts';
+import type { HandleBodyElement, HandleFigureElement, PoseSpaceElement } from '../../web/element/index.ts';
 import { ball, glb } from './support/files.ts';
 import { violations } from './support/manners.ts';
 import { frames, launch, loseContext, soon } from './support/studio.ts';
@@ -329,5 +329,65 @@ describe('<handle-figure>', () => {
     await page.locator('handle-figure [part=message]').waitFor();
     expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'unknown-figure']]);
     expect(await page.locator('handle-figure [part=message]').textContent()).toContain('course-12');
+  });
+});
+
+describe('<pose-space>', () => {
+  const face = (more = '') => `<pose-space src="face.glb" alt="A face" ${more} ${SIZE}></pose-space>`;
+  const at = (page: Page) => page.evaluate(() => ({ ...(document.querySelector('pose-space') as PoseSpaceElement).at }));
+  const weight = (page: Page, name: string) =>
+    page.evaluate(
+      (example) =>
+        (document.querySelector('pose-space') as PoseSpaceElement).weights.find(([known]) => known === example)?.[1] ?? Number.NaN,
+      name,
+    );
+
+  it('moves a face to where the puck is dragged and the sliders are set, and says where', async () => {
+    const { page, said } = await tagPage(browser, face('controls at="valence=0.83, arousal=0.53"'));
+    await loaded(page, 'pose-space');
+    expect(await at(page)).toEqual({ valence: 0.83, arousal: 0.53 });
+    const names = await page.evaluate(() =>
+      (document.querySelector('pose-space') as PoseSpaceElement).weights.map(([name]) => name),
+    );
+    const [first] = [...names].sort();
+    expect(first).toBeDefined();
+    const grip = (await page.locator('pose-space .grip').boundingBox()) as { x: number; y: number; width: number; height: number };
+    const [x, y] = [grip.x + grip.width / 2, grip.y + grip.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - 60, y + 40, { steps: 4 });
+    await page.mouse.up();
+    const moved = (await eventsOf(page)).at(-1) as [string, { at: Record<string, number>; weights: [string, number][] }];
+    expect(moved[0]).toBe('change');
+    expect(moved[1].at.valence).toBeLessThan(0.6);
+    expect(await at(page)).toEqual(moved[1].at);
+    await page.locator('pose-space').getByRole('slider', { name: 'Valence' }).focus();
+    await page.keyboard.press('ArrowRight');
+    expect((await at(page)).valence).toBeCloseTo((moved[1].at.valence ?? 0) + 0.01, 6);
+    await soon(() => page.locator('pose-space [aria-live=polite]').textContent()).toMatch(/^valence .*, arousal /);
+    expect(await violations(page)).toEqual([]);
+    expect(said).toEqual([]);
+  });
+
+  it('at an example is that example; what is no place is said, and the face stays', async () => {
+    const { page } = await tagPage(browser, face());
+    await loaded(page, 'pose-space');
+    expect(await page.locator('pose-space [part=plane]').isVisible()).toBe(false);
+    await page.evaluate(() => document.querySelector('pose-space')?.setAttribute('at', 'valence=0.83, arousal=0.53'));
+    await soon(() => weight(page, 'happy')).toBeCloseTo(1, 3);
+    for (const [text, code] of [
+      ['joy=1', 'unknown-dimension'],
+      ['valence', 'invalid-place'],
+    ]) {
+      await page.evaluate((place) => document.querySelector('pose-space')?.setAttribute('at', place ?? ''), text);
+      await soon(async () => (await eventsOf(page)).at(-1)?.[1]?.code).toBe(code);
+      expect((await at(page)).valence).toBe(0.83);
+    }
+  });
+
+  it('says so where a model has no pose space', async () => {
+    const { page } = await tagPage(browser, `<pose-space src="spot.glb" alt="A cow" ${SIZE}></pose-space>`);
+    await page.locator('pose-space [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'no-pose-space']]);
   });
 });

@@ -52,7 +52,7 @@ const PAGES: readonly Kinds[] = [
     picture: '#canvas',
     colors: [
       ['.weight-row:first-of-type .weight-track', 2],
-      ['#slider-0', 3],
+      ['.pad-grid [type=range]:not(.upright)', 3],
     ],
     plots: [
       ['.pad-grid', '.dot, .dot-name, .pad-end, .puck, input'],

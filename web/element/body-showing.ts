@@ -1,18 +1,14 @@
 import type { Object3D } from 'three';
 import type { BodyData } from '../../wasm/ts/runtime.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { cameraTools } from '../stage/camera-tools.ts';
-import { sharedEasel } from '../stage/easel.ts';
-import { View } from '../stage/view.ts';
 import { type Draggable, draggable } from '../three/draggable.ts';
 import { fetchModel } from '../three/fetch-model.ts';
 import { meshFromObject } from '../three/geometry.ts';
 import { loadModel } from '../three/load-model.ts';
-import { h } from '../ui/dom.ts';
-import { noteIn } from '../ui/note.ts';
 import type { Progress } from '../ui/progress.ts';
 import type { AskedHandle } from './handles-text.ts';
 import { runtime } from './runtime.ts';
+import { type CameraState, ViewFrame } from './view-frame.ts';
 
 type Place = readonly [x: number, y: number, z: number];
 
@@ -28,7 +24,7 @@ export interface HandleChange {
 export interface BodyState {
   readonly handles: readonly AskedHandle[];
   readonly targets: readonly Place[];
-  readonly camera: { readonly position: readonly number[]; readonly target: readonly number[] };
+  readonly camera: CameraState;
 }
 
 interface BodyOptions {
@@ -90,49 +86,31 @@ async function bake(mesh: Mesh, progress: Progress, signal: AbortSignal, onProgr
 export class BodyShowing {
   readonly #options: BodyOptions;
   readonly #object: Object3D;
-  readonly #view: View;
-  readonly #viewport: HTMLElement;
-  readonly #container = h('div', { class: 'handles' });
-  readonly #tools: HTMLElement;
-  /** Where the chosen handle goes, for those who do not see it: at the end of a move, not during it. */
-  readonly #spoken = h('p', { class: 'unseen', role: 'status' });
-  readonly #frame: HTMLElement;
+  readonly #frame: ViewFrame;
   #speaking: ReturnType<typeof setTimeout> | undefined;
   #drag: Draggable | undefined;
   readonly #step = () => this.#advance();
 
   constructor(object: Object3D, options: BodyOptions) {
     [this.#object, this.#options] = [object, options];
-    const canvas = h('canvas', { part: 'canvas' });
-    this.#viewport = h('div', { class: 'viewport', part: 'viewport', role: 'application' }, canvas, this.#container);
-    const note = h('p', { class: 'note', role: 'status', hidden: true });
-    this.#frame = h('div', { class: 'stage' }, this.#viewport, note, this.#spoken);
-    options.stage.replaceChildren(this.#frame);
-    this.#view = new View(canvas, this.#viewport, sharedEasel());
-    this.#view.onInterrupted = noteIn(note);
-    this.#view.onDrawn = () => this.#drag?.place();
-    this.#tools = cameraTools(this.#view, this.#viewport);
-    this.#tools.setAttribute('part', 'controls');
-    this.#frame.append(this.#tools);
-    this.controls = options.controls;
-    this.alt = options.alt;
-    this.#view.show(object);
+    this.#frame = new ViewFrame(options.stage, options);
+    this.#frame.view.onDrawn = () => this.#drag?.place();
+    this.#frame.view.show(object);
     this.look(options.camera);
-    if (options.state) this.#recall(options.state.camera);
+    if (options.state) this.#frame.recall(options.state.camera);
   }
 
   /** What is not seen draws nothing. */
   see(seen: boolean): void {
-    this.#view.sleep(!seen);
+    this.#frame.view.sleep(!seen);
   }
 
   set alt(words: string) {
-    const keys = 'Arrow keys turn the view, plus and minus zoom, Home shows all.';
-    this.#viewport.ariaLabel = `${words || 'A model that can be deformed'}. ${keys}`;
+    this.#frame.alt = words;
   }
 
   set controls(shown: boolean) {
-    this.#tools.hidden = !shown;
+    this.#frame.controls = shown;
   }
 
   get handles(): readonly AskedHandle[] {
@@ -142,14 +120,12 @@ export class BodyShowing {
   get state(): BodyState {
     const drag = this.#drag;
     const targets = drag ? drag.handles.map((_, i) => drag.target(i).toArray() as Place) : [];
-    const { camera, controls } = this.#view;
-    return { handles: this.handles, targets, camera: { position: camera.position.toArray(), target: controls.target.toArray() } };
+    return { handles: this.handles, targets, camera: this.#frame.camera };
   }
 
   /** From where it is seen: "58deg 14deg". */
   look(angles: string): void {
-    const [azimuth = VIEW.azimuth, elevation = VIEW.elevation] = (angles.match(/-?[\d.]+/g) ?? []).map(Number);
-    this.#view.frame(this.#object, { azimuth, elevation }, true);
+    this.#frame.look(this.#object, angles, VIEW, true);
   }
 
   /** The body has come: from now on it can be dragged. */
@@ -158,18 +134,18 @@ export class BodyShowing {
     const asked = state?.handles ?? handles;
     const drag = draggable(this.#object, body, {
       hb,
-      camera: this.#view.camera,
-      container: this.#container,
-      onWake: () => this.#view.animate(this.#step),
+      camera: this.#frame.view.camera,
+      container: this.#frame.overlay,
+      onWake: () => this.#frame.view.animate(this.#step),
       onMove: (i) => this.#moved(i),
-      onSelect: () => this.#view.invalidate(),
+      onSelect: () => this.#frame.view.invalidate(),
       onError,
       ...(asked && { handles: asked }),
     });
     this.#drag = drag;
     for (let i = 0; i < drag.handles.length; i++) drag.overlay.element(i)?.setAttribute('part', 'handle');
     if (state) this.move(state.targets);
-    this.#view.animate(this.#step);
+    this.#frame.view.animate(this.#step);
   }
 
   /** Other handles, at rest. Throws what the solver throws, and the former ones stay. */
@@ -195,20 +171,13 @@ export class BodyShowing {
   dispose(): void {
     clearTimeout(this.#speaking);
     this.#drag?.dispose();
-    this.#view.dispose();
-    this.#frame.remove();
+    this.#frame.dispose();
   }
 
   #advance(): boolean {
     const goesOn = this.#drag?.advance() ?? false;
-    this.#view.changed();
+    this.#frame.view.changed();
     return goesOn;
-  }
-
-  #recall({ position, target }: BodyState['camera']): void {
-    this.#view.camera.position.fromArray(position);
-    this.#view.controls.target.fromArray(target);
-    this.#view.controls.update();
   }
 
   #moved(i: number): void {
@@ -220,7 +189,7 @@ export class BodyShowing {
     this.#options.onChange({ index: i, name, to });
     clearTimeout(this.#speaking);
     this.#speaking = setTimeout(() => {
-      this.#spoken.textContent = `${name}: ${drag.overlay.description(i)}.`;
+      this.#frame.spoken.textContent = `${name}: ${drag.overlay.description(i)}.`;
     }, 700);
   }
 }

@@ -1,8 +1,7 @@
-import type { Mesh, Object3D } from 'three';
-import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
+import type { Object3D } from 'three';
+import type { HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
-import { type Range, rangesOf, setInfluences } from '../three/influences.ts';
-import type { PoseSpaceSource } from '../three/pose-source.ts';
+import { type DrivenSpace, type PoseDriver, poseDriver } from '../three/pose-driver.ts';
 import { reducedMotion } from '../ui/motion.ts';
 import { PosePanel } from './pose-panel.ts';
 import type { StudioScene } from './scene.ts';
@@ -11,7 +10,7 @@ interface PoseSceneOptions {
   readonly view: View;
   readonly solver: HandlebodyRuntime;
   readonly object: Object3D;
-  readonly space: PoseSpaceSource;
+  readonly space: DrivenSpace;
   readonly title: string;
   readonly onError: (error: unknown) => void;
   readonly onGood: () => void;
@@ -26,12 +25,8 @@ export class PoseScene implements StudioScene {
   readonly object: Object3D;
   readonly grounded = false;
   readonly #options: PoseSceneOptions;
-  readonly #space: PoseSpace;
-  readonly #meshes: Mesh[] = [];
+  readonly #driver: PoseDriver;
   readonly #panel: PosePanel;
-  readonly #weights: Float64Array;
-  readonly #shape: Float64Array;
-  readonly #ranges: readonly Range[];
   readonly #to: [number, number] = [0, 0];
   readonly #at: [number, number] = [0, 0];
   readonly #step = (seconds: number) => this.#ease(seconds);
@@ -39,18 +34,7 @@ export class PoseScene implements StudioScene {
   constructor(options: PoseSceneOptions) {
     this.#options = options;
     this.object = options.object;
-    const { dimensions, examples } = options.space;
-    this.#space = options.solver.poseSpace({
-      dimensions: [...dimensions],
-      examples: examples.map(({ name, at, shape }) => ({ name, at: [...at], shape })),
-    });
-    this.#weights = new Float64Array(examples.length);
-    this.#shape = new Float64Array(examples[0]?.shape.length ?? 0);
-    this.#ranges = rangesOf(examples.map(({ shape }) => shape));
-    options.object.traverse((part) => {
-      const mesh = part as Mesh;
-      if (mesh.isMesh && mesh.morphTargetInfluences) this.#meshes.push(mesh);
-    });
+    this.#driver = poseDriver(options.solver, options.space);
     this.#panel = new PosePanel(
       options.title,
       options.space,
@@ -86,7 +70,7 @@ export class PoseScene implements StudioScene {
 
   dispose(): void {
     this.#options.view.stop(this.#step);
-    this.#space.dispose();
+    this.#driver.dispose();
   }
 
   #ease(seconds: number): boolean {
@@ -101,16 +85,12 @@ export class PoseScene implements StudioScene {
   /** The face at the present place. False when the solver refused. */
   #show(): boolean {
     try {
-      this.#space.weights(this.#at, this.#weights);
-      this.#space.evaluate(this.#at, this.#shape);
+      this.#driver.set(this.#at);
     } catch (error) {
       this.#options.onError(error);
       return false;
     }
-    for (const { morphTargetInfluences } of this.#meshes) {
-      if (morphTargetInfluences) setInfluences(morphTargetInfluences, this.#shape, this.#ranges);
-    }
-    this.#panel.weigh(this.#weights);
+    this.#panel.weigh(this.#driver.weights);
     this.#options.view.changed();
     return true;
   }

@@ -1,4 +1,4 @@
-import type { PoseSpaceSource } from '../three/pose-source.ts';
+import type { DrivenSpace } from '../three/pose-driver.ts';
 import { h, readable } from '../ui/dom.ts';
 
 /** A bar for every example's weight, blue to the right and orange to the left of zero, with its number; a click goes to the example. */
@@ -7,7 +7,7 @@ export class WeightBars {
   readonly #rows: { row: HTMLElement; bar: HTMLElement; number: HTMLElement }[];
   readonly #sum = h('span', { class: 'sum' });
 
-  constructor(source: PoseSpaceSource, go: (x: number, y: number) => void) {
+  constructor(source: DrivenSpace, go: (x: number, y: number) => void) {
     this.#rows = source.examples.map(({ name, at }) => {
       const bar = h('span', { class: 'weight-bar' });
       const number = h('span', { class: 'weight-number' });

@@ -12,3 +12,4 @@ export {
   handlebodyPlugin,
   type LoadedPoseSpace,
 } from './loader.ts';
+export { type DrivenSpace, PoseDriver, poseDriver } from './pose-driver.ts';

@@ -3,14 +3,13 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb } from '../assets/check-glb.ts';
-import { handlebodyData, handlebodyPlugin } from './loader.ts';
-import type { PoseSpaceSource } from './pose-source.ts';
+import { handlebodyData, handlebodyPlugin, type LoadedPoseSpace } from './loader.ts';
 
 /** What a GLB brings: an object, and maybe what was baked into it. */
 export interface LoadedModel {
   readonly object: Object3D;
   readonly body: BodyData | undefined;
-  readonly space: PoseSpaceSource | undefined;
+  readonly space: LoadedPoseSpace | undefined;
 }
 
 /** Checks a GLB and makes three.js objects of it. */
@@ -21,15 +20,7 @@ export async function loadModel(buffer: ArrayBuffer): Promise<LoadedModel> {
   try {
     const gltf = await loader.parseAsync(buffer, '');
     const { body, poseSpaces } = handlebodyData(gltf);
-    const [space] = poseSpaces;
-    return {
-      object: gltf.scene,
-      body,
-      space: space && {
-        dimensions: space.dimensions.map(({ name }) => name),
-        examples: space.examples.map(({ name, at, weights }) => ({ name, at, shape: weights })),
-      },
-    };
+    return { object: gltf.scene, body, space: poseSpaces[0] };
   } catch (cause) {
     if (cause instanceof HandlebodyError) throw cause;
     throw new HandlebodyError('file-invalid', {

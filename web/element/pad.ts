@@ -1,4 +1,4 @@
-import type { PoseSpaceSource } from '../three/pose-source.ts';
+import type { DrivenSpace } from '../three/pose-driver.ts';
 import { h, svg } from '../ui/dom.ts';
 import { draggable, type Grip, isDragging, take } from '../ui/drag.ts';
 import { declutter, type Label } from './declutter.ts';
@@ -15,7 +15,7 @@ const LINE = 13;
 export class Pad {
   readonly element: HTMLElement;
   readonly #svg = svg('svg', { 'aria-hidden': 'true' });
-  readonly #source: PoseSpaceSource;
+  readonly #source: DrivenSpace;
   readonly #limit: number;
   readonly #go: (x: number, y: number) => void;
   readonly #lines = svg('g', { class: 'pad-lines' });
@@ -32,13 +32,13 @@ export class Pad {
   /** Where a touch began that has not said yet what it wants. */
   #tap: { readonly pointer: number; readonly x: number; readonly y: number } | undefined;
 
-  constructor(source: PoseSpaceSource, limit: number, go: (x: number, y: number) => void) {
+  constructor(source: DrivenSpace, limit: number, go: (x: number, y: number) => void) {
     this.#source = source;
     this.#limit = limit;
     this.#go = go;
     this.#dots = source.examples.map(({ name }) => svg('circle', { class: 'dot', r: DOT }, svg('title', {}, name)));
     this.#labels = source.examples.map(({ name }) => svg('text', { class: 'dot-name' }, name));
-    const [across, up] = [0, 1].map((i) => ENDS[source.dimensions[i] ?? ''] ?? ['−', '+']) as [
+    const [across, up] = [0, 1].map((i) => ENDS[source.dimensions[i]?.name ?? ''] ?? ['−', '+']) as [
       readonly [string, string],
       readonly [string, string],
     ];

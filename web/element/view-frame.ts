@@ -1,0 +1,69 @@
+import type { Object3D } from 'three';
+import { cameraTools } from '../stage/camera-tools.ts';
+import { sharedEasel } from '../stage/easel.ts';
+import { View } from '../stage/view.ts';
+import { h } from '../ui/dom.ts';
+import { noteIn } from '../ui/note.ts';
+
+/** From where a model is seen, so that the view comes back as it was. */
+export interface CameraState {
+  readonly position: readonly number[];
+  readonly target: readonly number[];
+}
+
+/** A view in an element: canvas, handles over it, buttons for the camera, and a line that is read aloud. All of a page share a renderer. */
+export class ViewFrame {
+  readonly element: HTMLElement;
+  readonly view: View;
+  /** Over the canvas, for handles. */
+  readonly overlay = h('div', { class: 'handles' });
+  /** Said to those who do not see it. */
+  readonly spoken = h('p', { class: 'unseen', role: 'status' });
+  readonly #viewport: HTMLElement;
+  readonly #tools: HTMLElement;
+
+  constructor(stage: HTMLElement, { alt, controls }: { readonly alt: string; readonly controls: boolean }) {
+    const canvas = h('canvas', { part: 'canvas' });
+    this.#viewport = h('div', { class: 'viewport', part: 'viewport', role: 'application' }, canvas, this.overlay);
+    const note = h('p', { class: 'note', role: 'status', hidden: true });
+    this.element = h('div', { class: 'stage' }, this.#viewport, note, this.spoken);
+    stage.replaceChildren(this.element);
+    this.view = new View(canvas, this.#viewport, sharedEasel());
+    this.view.onInterrupted = noteIn(note);
+    this.#tools = cameraTools(this.view, this.#viewport);
+    this.#tools.setAttribute('part', 'controls');
+    this.element.append(this.#tools);
+    [this.alt, this.controls] = [alt, controls];
+  }
+
+  set alt(words: string) {
+    this.#viewport.ariaLabel = `${words || 'A model'}. Arrow keys turn the view, plus and minus zoom, Home shows all.`;
+  }
+
+  set controls(shown: boolean) {
+    this.#tools.hidden = !shown;
+  }
+
+  /** From where an object is seen: "58deg 14deg", azimuth and height; `usual` where a number is left out. */
+  look(object: Object3D, angles: string, usual: { readonly azimuth: number; readonly elevation: number }, grounded: boolean): void {
+    const [azimuth = usual.azimuth, elevation = usual.elevation] = (angles.match(/-?[\d.]+/g) ?? []).map(Number);
+    this.view.frame(object, { azimuth, elevation }, grounded);
+  }
+
+  get camera(): CameraState {
+    const { camera, controls } = this.view;
+    return { position: camera.position.toArray(), target: controls.target.toArray() };
+  }
+
+  recall({ position, target }: CameraState): void {
+    const { camera, controls } = this.view;
+    camera.position.fromArray(position);
+    controls.target.fromArray(target);
+    controls.update();
+  }
+
+  dispose(): void {
+    this.view.dispose();
+    this.element.remove();
+  }
+}
