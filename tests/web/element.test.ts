@@ -385,6 +385,20 @@ describe('<pose-space>', () => {
     }
   });
 
+  it('has its plane below the picture where there is no room on it', async () => {
+    const { page } = await tagPage(browser, '<pose-space src="face.glb" alt="A face" controls></pose-space>', {
+      viewport: { width: 390, height: 800 },
+    });
+    await loaded(page, 'pose-space');
+    await frames(page, 4);
+    const box = (selector: string) =>
+      page.locator(`pose-space ${selector}`).boundingBox() as Promise<{ y: number; height: number }>;
+    const [canvas, plane] = [await box('[part=canvas]'), await box('[part=plane]')];
+    expect(plane.y).toBeGreaterThanOrEqual(canvas.y + canvas.height);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThan(1);
+    expect(await violations(page)).toEqual([]);
+  });
+
   it('says so where a model has no pose space', async () => {
     const { page } = await tagPage(browser, `<pose-space src="spot.glb" alt="A cow" ${SIZE}></pose-space>`);
     await page.locator('pose-space [part=message]').waitFor();

@@ -41,6 +41,8 @@ interface PoseOptions {
 }
 
 const VIEW = { azimuth: 9, elevation: 2 };
+/** Pixels below which the plane would lie on the face. */
+const NARROW = 560;
 /** Seconds in which a face covers about two thirds of the way to where it is to go. */
 const EASE_SECONDS = 0.09;
 
@@ -86,6 +88,8 @@ export class PoseShowing {
   #to: number[];
   #at: number[];
   readonly #step = (seconds: number) => this.#ease(seconds);
+  /** The plane lies on the picture where there is room, else below it. */
+  readonly #sizes = new ResizeObserver(() => this.#arrange());
 
   constructor(object: Object3D, space: LoadedPoseSpace, options: PoseOptions) {
     [this.#object, this.#space, this.#options] = [object, space, options];
@@ -95,6 +99,7 @@ export class PoseShowing {
     const { element, place, spoken } = this.#plane;
     this.#panel = h('div', { class: 'plane', part: 'plane', role: 'group', 'aria-label': 'Place' }, element, place, spoken);
     options.stage.append(this.#panel);
+    this.#sizes.observe(options.stage);
     this.controls = options.controls;
     this.#frame.view.show(object);
     this.look(options.camera);
@@ -113,6 +118,7 @@ export class PoseShowing {
   set controls(shown: boolean) {
     this.#frame.controls = shown;
     this.#panel.hidden = !shown;
+    this.#arrange();
   }
 
   get state(): PoseState {
@@ -141,9 +147,16 @@ export class PoseShowing {
 
   dispose(): void {
     this.#frame.view.stop(this.#step);
+    this.#sizes.disconnect();
     this.#driver?.dispose();
     this.#frame.dispose();
     this.#panel.remove();
+  }
+
+  #arrange(): void {
+    const { stage } = this.#options;
+    const { host } = stage.getRootNode() as ShadowRoot;
+    host.toggleAttribute('data-narrow', stage.clientWidth < NARROW && !this.#panel.hidden);
   }
 
   /** By the plane: further dimensions stay as they are. */
