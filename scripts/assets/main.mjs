@@ -37,6 +37,26 @@ const BAKES = {
   spot: { centers: 150, resolution: 40, spheres: 80 },
 };
 
+/** Where bodies want to be held: vertices. @type {Record<string, [name: string, vertex: number][]>} */
+const HANDLES = {
+  dog: [
+    ['Front right paw', 1172],
+    ['Front left paw', 4946],
+    ['Back right paw', 7827],
+    ['Back left paw', 9813],
+    ['Nose', 13637],
+    ['Tail tip', 3169],
+  ],
+  spot: [
+    ['Front right hoof', 1166],
+    ['Front left hoof', 2292],
+    ['Back right hoof', 1143],
+    ['Back left hoof', 2273],
+    ['Nose', 1453],
+    ['Tail', 1855],
+  ],
+};
+
 /**
  * The document as a file, with interior distances on the bodies: baked last, since other steps would not know the extension.
  * @param {string} name
@@ -47,7 +67,8 @@ async function bakedBytes(name, document) {
   if (!options) return toBytes(document);
   const { load } = await import('../../dist/wasm/ts/index.js');
   const { attachBody, readMesh } = await import('../../dist/web/assets/index.js');
-  await attachBody(document, await (await load()).bake(readMesh(document).mesh, options));
+  const body = await (await load()).bake(readMesh(document).mesh, options);
+  await attachBody(document, { ...body, handles: (HANDLES[name] ?? []).map(([name, vertex]) => ({ name, vertex })) });
   return toBytes(document);
 }
 

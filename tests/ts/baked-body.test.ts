@@ -86,6 +86,37 @@ describe('the dog as served, 200 centers', async () => {
     expect(Buffer.from(await writeGlb(await readGlb(written))).equals(written)).toBe(true);
   });
 
+  it('names where it wants to be held', () => {
+    expect(served.handles?.map(({ name }) => name)).toEqual([
+      'Front right paw',
+      'Front left paw',
+      'Back right paw',
+      'Back left paw',
+      'Nose',
+      'Tail tip',
+    ]);
+    const handles = [{ name: 'Chest', at: [0, 0.5, 0] }];
+    expect(parseBodyHeader({ ...served, handles }).handles).toEqual(handles);
+  });
+
+  it.each<[unknown, RegExp]>([
+    [{}, /no list of at most 1000 handles/],
+    [Array.from({ length: 1001 }, () => ({ name: '', vertex: 0 })), /no list of at most 1000 handles/],
+    [[{ vertex: 1 }], /no name for handle 0/],
+    [[{ name: 'a', vertex: -1 }], /handle 0 on no vertex, -1/],
+    [[{ name: 'a', vertex: 1.5 }], /handle 0 on no vertex/],
+    [[{ name: 'a', at: [0, 1, null] }], /no place of handle 0/],
+    [[null], /no name for handle 0/],
+  ])('is refused with handles that are none: %j', (handles, said) => {
+    expect(() => parseBodyHeader({ ...served, handles })).toThrow(said);
+  });
+
+  it('is refused with a handle on a vertex that it has not', async () => {
+    const document = await readGlb(bytes);
+    const body = { ...served, handles: [{ name: 'Wing', vertex: served.mesh.positions.length / 3 }] };
+    await expect(attachBody(document, body)).rejects.toThrow('“Wing”');
+  });
+
   it('is decompressed to the codes that were baked', async () => {
     const header = { ...parseBodyHeader(served), arraysHash: stored.arraysHash };
     const body = await decodeBody({ header, arrays: stored.arrays, mesh: () => served.mesh });

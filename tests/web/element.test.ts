@@ -121,6 +121,13 @@ describe('one tag, with a script from another origin', () => {
   });
 });
 
+it('without handles takes those that the file names', async () => {
+  const { page } = await tagPage(browser, `<handle-body src="dog.glb" alt="A dog" ${SIZE}></handle-body>`);
+  await loaded(page);
+  const names = await page.locator('handle-body [part=handle]').evaluateAll((all) => all.map((one) => one.ariaLabel));
+  expect(names).toEqual(['Front right paw', 'Front left paw', 'Back right paw', 'Back left paw', 'Nose', 'Tail tip']);
+});
+
 describe('manners on the page', () => {
   it('a wheel over the picture scrolls the page; with Ctrl it zooms', async () => {
     const { page } = await tagPage(browser, dog());

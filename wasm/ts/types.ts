@@ -62,7 +62,12 @@ export interface BodyData {
   readonly distanceScale: number;
   /** spheres × 4: center xyz, radius. */
   readonly spheres: Float64Array;
+  /** Where the model wants to be held, by name; `bake` names none. */
+  readonly handles?: readonly NamedHandle[];
 }
+
+/** A handle and what it is called. */
+export type NamedHandle = Handle & { readonly name: string };
 
 /**
  * Distances inside the body: by fast marching; by heat, smoother and quicker on coarse grids; by mean value coordinates, which extend

@@ -9,6 +9,7 @@
  *     "normalization": { "center": [x, y, z], "diagonal": d },
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
+ *     "handles": [ { "name": "Nose", "vertex": 120 }, { "name": "Chest", "at": [x, y, z] }, … ],    optional: where it wants to be held
  *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
  *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
  *     "centers": accessor,     unsigned int SCALAR: vertices
@@ -23,7 +24,7 @@
  */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
-import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
+import type { BodyData, DistanceMethod, NamedHandle } from '../../wasm/ts/types.ts';
 import { asObject, isNumber, show } from './gltf-json.ts';
 import { countInRuns } from './voxel-runs.ts';
 
@@ -38,7 +39,7 @@ export const BODY_VERSION = 1;
 const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
 
 /** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
-type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale'>;
+type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale' | 'handles'>;
 
 /** The same in a file. */
 export interface StoredHeader extends BodyHeader {
@@ -96,6 +97,7 @@ export function parseBodyHeader(json: unknown): BodyHeader {
       dimensions: triple(grid.dimensions, 'dimensions'),
     },
     distanceScale: body.distanceScale as number,
+    ...(body.handles !== undefined && { handles: namedHandles(body.handles) }),
   };
   if (!METHODS.includes(header.distance)) throw bodyInvalid(`has distances of no known method, ${show(body.distance)}`);
   if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw bodyInvalid('has no hash of its positions');
@@ -103,6 +105,20 @@ export function parseBodyHeader(json: unknown): BodyHeader {
   const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
   if (cells < 1 || cells > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
   return header;
+}
+
+/** More than these cannot be told apart. */
+const MAX_HANDLES = 1000;
+
+function namedHandles(json: unknown): NamedHandle[] {
+  if (!Array.isArray(json) || json.length > MAX_HANDLES) throw bodyInvalid(`has no list of at most ${MAX_HANDLES} handles`);
+  return json.map((entry, i) => {
+    const { name, vertex, at } = asObject(entry) ?? {};
+    if (typeof name !== 'string') throw bodyInvalid(`has no name for handle ${i}`);
+    if (vertex === undefined) return { name, at: triple(at, `place of handle ${i}`) };
+    if (isNumber(vertex) && Number.isInteger(vertex) && vertex >= 0) return { name, vertex };
+    throw bodyInvalid(`has handle ${i} on no vertex, ${show(vertex)}`);
+  });
 }
 
 /** The same out of a file, with the hash of the arrays. */
@@ -170,6 +186,8 @@ export function checkBody(body: Omit<BodyData, 'distances'> & { readonly distanc
   const vertices = mesh.positions.length / 3;
   const stray = centers.find((vertex) => vertex >= vertices);
   if (stray !== undefined) throw bodyInvalid(`has a center on vertex ${stray} of ${vertices}`);
+  const lost = body.handles?.find((handle) => 'vertex' in handle && handle.vertex >= vertices);
+  if (lost) throw bodyInvalid(`has the handle “${lost.name}” on a vertex that the model has not`);
   if (spheres.length % 4 !== 0 || spheres.some((x, i) => !Number.isFinite(x) || (i % 4 === 3 && x < 0))) {
     throw bodyInvalid('has spheres that are not four finite numbers each');
   }

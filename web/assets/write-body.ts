@@ -19,8 +19,8 @@ import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, parseBodyHeader } from './s
  * ```
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
-  const { version, distance, positionsHash, normalization, grid, distanceScale } = body;
-  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale });
+  const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
+  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles });
   const checked = { ...body, ...header, mesh: readMesh(document).mesh };
   checkBody(checked);
   const { arrays, arraysHash } = await encodeBody(checked);

@@ -5,8 +5,8 @@ import { PageError } from '../ui/page-error.ts';
 import { Progress } from '../ui/progress.ts';
 import { STYLES } from './styles.generated.ts';
 
-/** On a server there are no elements: importing the module is safe there, and defines nothing. */
-const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
+/** HTMLElement; on a server, where there is none, importing the module is safe and defines nothing. */
+export const PageElement = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
 
 /** Milliseconds off-screen after which all but the state is given back. */
 const FORGET = 10_000;
@@ -37,11 +37,12 @@ let sheet: CSSStyleSheet | undefined;
  * Attributes: `alt`, `poster`, `loading` ("lazy", the default, or "eager"), `reveal` ("auto", or "manual": when asked for).
  * Events: `progress`, `load`, `error`. Slots: `poster`, `progress`. Parts: `poster`, `progress`, `message`.
  */
-export abstract class ElementBase extends Base {
+export abstract class ElementBase extends PageElement {
   static observedAttributes: readonly string[] = ['alt', 'poster', 'loading', 'reveal'];
 
-  /** Over the poster and the message. */
+  /** Where the picture is. @internal */
   readonly stage: HTMLElement;
+  /** @internal */
   protected readonly progress: Progress;
   readonly #poster = h('div', { class: 'poster', part: 'poster' });
   readonly #message = h('div', { class: 'message', part: 'message', role: 'alert', hidden: true });

@@ -10,8 +10,9 @@ import { HandleBodyElement } from './handle-body.ts';
 import { HandleFigureElement } from './handle-figure.ts';
 import { PoseSpaceElement } from './pose-space.ts';
 
+export type { Told } from '../figures/kit/figure.ts';
 export type { HandleChange } from './body-showing.ts';
-export type { ElementError } from './element-base.ts';
+export { ElementBase, type ElementError, PageElement, type Showing } from './element-base.ts';
 export { HandleBodyElement } from './handle-body.ts';
 export { HandleFigureElement } from './handle-figure.ts';
 export type { AskedHandle } from './handles-text.ts';

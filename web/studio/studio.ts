@@ -1,4 +1,4 @@
-import type { BakeWarning, BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
+import type { BakeWarning, BodyData, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
 import { farthestVertices } from '../three/farthest.ts';
 import { fetchModel } from '../three/fetch-model.ts';
@@ -175,9 +175,9 @@ export class Studio {
   ): Promise<BodyScene> {
     const { mesh, parts, normals } = meshFromObject(model.object);
     const body = model.body ?? (await this.#bake(mesh, signal));
-    const points: { name: string; handle: Handle }[] = entry?.handles.length
-      ? entry.handles.map(({ name, vertex }) => ({ name, handle: { vertex } }))
-      : farthestVertices(body.mesh.positions, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, handle: { vertex } }));
+    const spread = () =>
+      farthestVertices(body.mesh.positions, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
+    const points = (body.handles ?? spread()).map(({ name, ...handle }) => ({ name, handle }));
     const live = new LiveBody(await this.#parts.solver, body, normals);
     const shown = new DeformedGeometry(parts);
     try {

@@ -8,7 +8,7 @@ import { HandleOverlay } from './handles.ts';
 import { LiveBody } from './live-body.ts';
 
 /** A handle of the body: a vertex, or a point inside, in the object's own space; and what it is called. */
-export type NamedHandle = Handle & { readonly name?: string };
+export type DraggableHandle = Handle & { readonly name?: string };
 
 export interface DraggableOptions {
   /** Both links of the solver will do. */
@@ -16,8 +16,8 @@ export interface DraggableOptions {
   readonly camera: PerspectiveCamera | OrthographicCamera;
   /** A positioned element that covers exactly the canvas; the handles become buttons inside it. */
   readonly container: HTMLElement;
-  /** Vertices spread over the body, where this is left out. */
-  readonly handles?: readonly NamedHandle[];
+  /** Those that the body names where this is left out; else vertices spread over it. */
+  readonly handles?: readonly DraggableHandle[];
   /** Iterations of a frame. */
   readonly iterations?: number;
   /** Something moves: draw a frame, where the page draws on demand. */
@@ -61,7 +61,7 @@ export class Draggable {
   readonly #live: LiveBody;
   readonly #shown: DeformedGeometry;
   readonly #place = new Vector3();
-  #handles: readonly NamedHandle[] = [];
+  #handles: readonly DraggableHandle[] = [];
   #rest: readonly Vector3[] = [];
   #awake = false;
 
@@ -87,14 +87,14 @@ export class Draggable {
     });
     const spread = () => farthestVertices(body.mesh.positions, DRAGGABLE_DEFAULTS.count).map((vertex) => ({ vertex }));
     try {
-      this.setHandles(options.handles ?? spread());
+      this.setHandles(options.handles ?? body.handles ?? spread());
     } catch (error) {
       this.dispose();
       throw error;
     }
   }
 
-  get handles(): readonly NamedHandle[] {
+  get handles(): readonly DraggableHandle[] {
     return this.#handles;
   }
 
@@ -108,7 +108,7 @@ export class Draggable {
   }
 
   /** Other handles, at rest. The former ones stay where these are refused. Throws what `Irbf.setHandles` throws. */
-  setHandles(handles: readonly NamedHandle[]): void {
+  setHandles(handles: readonly DraggableHandle[]): void {
     const rest = handles.map((handle) => this.#live.rest(handle));
     this.#live.hold(handles, rest);
     [this.#handles, this.#rest] = [handles, rest];

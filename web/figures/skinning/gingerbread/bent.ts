@@ -18,13 +18,6 @@ import { SHAPES, type ShapeName, shapeOf } from './shapes.ts';
 /** About how many vertices. */
 export const VERTICES = { low: 200, initial: 2250, high: 8000 } as const;
 
-interface Show {
-  /** Weight of the picked handle as colors and isolines, instead of the picture. */
-  readonly weight: boolean;
-  /** The triangles. */
-  readonly mesh: boolean;
-}
-
 const shape: Channel<ShapeName> = {
   initial: 'man',
   // An outline of one's own says by itself that it is shown instead.
@@ -40,7 +33,8 @@ const vertices: Channel<number> = {
   },
   write: String,
 };
-const show: Channel<Show> = {
+/** Weight of the picked handle as colors and isolines, instead of the picture; the triangles. */
+const show: Channel<{ readonly weight: boolean; readonly mesh: boolean }> = {
   initial: { weight: false, mesh: false },
   read: (text, left) => {
     const words = text.split(',');
