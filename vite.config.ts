@@ -1,4 +1,4 @@
-// The site: every web/**/index.html is one page of it.
+// The site: every web/**/index.html is one page of it, and web/embed.html.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,11 +9,11 @@ const files = existsSync(web)
   ? readdirSync(web, { recursive: true, encoding: 'utf8' }).map((file) => file.replaceAll('\\', '/'))
   : [];
 
-/** studio/index.html becomes the page "studio", index.html the page "main". */
+/** studio/index.html becomes the page "studio", index.html the page "main", embed.html the page "embed". */
 const pages = files
-  .filter((file) => /(^|\/)index\.html$/.test(file))
+  .filter((file) => /(^|\/)index\.html$|^embed\.html$/.test(file))
   .sort()
-  .map((file) => [path.posix.dirname(file).replace(/^\.$/, 'main').replaceAll('/', '-'), path.join(web, file)]);
+  .map((file) => [file.replace(/\/?(index)?\.html$/, '').replaceAll('/', '-') || 'main', path.join(web, file)]);
 
 /** What several pages have alike is written once: <!--#include "../figures/head.html"-->, beside the page that asks for it. */
 const includes: Plugin = {

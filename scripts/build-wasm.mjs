@@ -16,6 +16,7 @@ import {
 import path from 'node:path';
 import { aptInstall, packageVersion } from './lib/apt.mjs';
 import { cmakeBuild } from './lib/cmake.mjs';
+import { ensureInstalled } from './lib/install.mjs';
 import { at, root } from './lib/paths.mjs';
 import { capture, mustRun, runMain, which } from './lib/run.mjs';
 import { EIGEN, ensureEigen } from './toolchain.mjs';
@@ -140,6 +141,7 @@ await runMain(async () => {
   const wasm = Object.fromEntries([...built].map(([name, bytes]) => [name, sha256(bytes)]));
   const record = { tools: toolVersions(), sources: hashSources(), wasm };
   writeFileSync(RECORD, `${JSON.stringify(record, null, 2)}\n`);
+  await ensureInstalled();
   await import('./generate.mjs');
   for (const [name, bytes] of built) console.log(`wasm/${name}: ${bytes.length} bytes.`);
   return 0;

@@ -167,3 +167,31 @@ export const WASM_DEFLATED_BASE64 =
 `,
   );
 }
+
+/** A worker's script in one piece, without the wasm. */
+async function bundled(/** @type {string} */ entry) {
+  const { build } = await import('vite');
+  const made = await build({
+    configFile: false,
+    root,
+    logLevel: 'warn',
+    build: {
+      write: false,
+      target: 'es2022',
+      modulePreload: false,
+      rolldownOptions: { input: at(entry), output: { codeSplitting: false } },
+    },
+  });
+  const [result] = [made].flat();
+  const chunks = result && 'output' in result ? result.output.filter((file) => file.type === 'chunk') : [];
+  const [chunk] = chunks;
+  if (!chunk || chunks.length !== 1) throw new Error(`generate: ${entry} is not one script`);
+  return chunk.code.trim();
+}
+
+write(
+  'web/worker/blob-worker.generated.ts',
+  `// Generated from web/worker/blob-worker.ts by scripts/generate.mjs.
+export const BLOB_WORKER = ${JSON.stringify(await bundled('web/worker/blob-worker.ts'))};
+`,
+);

@@ -55,6 +55,7 @@ export const LAYERS = {
   'web/element': { may: [...KIT, 'web/figures'], packages: ['three', GLTF] },
   'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
+  'web/embed': { may: ['web/ui', 'web/element'] },
   'web/learn': {
     may: [...BASE, 'web/ui', 'web/stage', 'web/figures', 'web/figures/kit', 'web/element'],
     packages: ['three', GLTF],

@@ -10,7 +10,6 @@ export async function buildStandalone(folder) {
     publicDir: false,
     base: './',
     logLevel: 'warn',
-    // Found beside what starts it, on pages of other origins too: see `importingWorker`.
     worker: { format: 'es', rolldownOptions: { output: { entryFileNames: 'standalone/[name].js' } } },
     build: {
       outDir: at(folder),

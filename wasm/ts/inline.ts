@@ -29,7 +29,7 @@ export async function loadInline<L extends Link>(
   return instantiate(link, module, signal);
 }
 
-async function compile({ bytes, deflated }: InlineWasm): Promise<WebAssembly.Module> {
+export async function compile({ bytes, deflated }: InlineWasm): Promise<WebAssembly.Module> {
   const stream = new Blob([Uint8Array.from(atob(deflated), (c) => c.charCodeAt(0))])
     .stream()
     .pipeThrough(new DecompressionStream('deflate-raw'));

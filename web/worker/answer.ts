@@ -21,6 +21,7 @@ export function answer<Question, Answer>(
   work: (
     question: Question,
     listener: Listener,
+    wasm: WebAssembly.Module | undefined,
   ) => Promise<{ readonly answer: Answer; readonly transfer: readonly ArrayBufferView[] }>,
 ): void {
   const reply = (message: WorkReply<Answer>, transfer: Transferable[] = []) => port.postMessage(message, transfer);
@@ -31,7 +32,7 @@ export function answer<Question, Answer>(
   port.addEventListener('message', async ({ data }: MessageEvent<WorkRequest<Question>>) => {
     if (data?.type !== 'work') return;
     try {
-      const { answer, transfer } = await work(data.question, listener);
+      const { answer, transfer } = await work(data.question, listener, data.wasm);
       reply({ type: 'done', answer }, [...new Set(transfer.map(({ buffer }) => buffer as ArrayBuffer))]);
     } catch (error) {
       reply({ type: 'error', error: packError(error) });
@@ -52,9 +53,12 @@ export interface BakeQuestion {
 export type BakeAnswer = Omit<BodyData, 'mesh'> & Partial<Pick<BodyData, 'mesh'>>;
 
 /** Answers with what `bake` gives. */
-export function answerBake(port: WorkPort, bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>): void {
-  answer<BakeQuestion, BakeAnswer>(port, async ({ shape, options }, listener) => {
-    const { mesh, ...body } = await bake(shape, { ...options, ...listener });
+export function answerBake(
+  port: WorkPort,
+  bake: (shape: BakeShape, options: BakeOptions, wasm?: WebAssembly.Module) => Promise<BodyData>,
+): void {
+  answer<BakeQuestion, BakeAnswer>(port, async ({ shape, options }, listener, wasm) => {
+    const { mesh, ...body } = await bake(shape, { ...options, ...listener }, wasm);
     const made = 'triangles' in shape ? undefined : mesh;
     return {
       answer: made ? { ...body, mesh: made } : body,

@@ -1,6 +1,6 @@
 import type { BakeOptions, BakeShape, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import type { BakeAnswer, BakeQuestion, PostedBakeOptions } from './answer.ts';
-import { type InWorkerOptions, importingWorker, inWorker } from './in-worker.ts';
+import { type InWorkerOptions, inWorker } from './in-worker.ts';
 
 /** `worker`: its script must import "handlebody/bake-worker" or be that file. */
 export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 'worker' | 'onFallback'> {}
@@ -9,7 +9,8 @@ export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 
  * Bakes on another thread, so that the page stays smooth. The shape's arrays are copied and stay the caller's; where it is a mesh, the
  * body's `mesh` is the one given. An aborted signal ends the worker at once.
  *
- * Without workers (Node, old browsers, a policy that blocks them) it steps on this thread, in slices of some milliseconds.
+ * Bundlers that make no worker of a file, and pages of another origin, get one from a script that the library carries as text. Without workers
+ * (Node, old browsers, a policy that blocks them) it steps on this thread, in slices of some milliseconds.
  *
  * Throws what `Handlebody.bake` throws, 'aborted' included, as `HandlebodyError`.
  *
@@ -23,6 +24,8 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
   const body = await inWorker<BakeAnswer>({
     ...options,
     worker,
+    // Who gives a worker wants that one.
+    blob: options.worker ? undefined : blobScript,
     ask: () => copied(shape, posted),
     here: async () => {
       // Loaded only now: a page whose worker starts never needs the solver for this.
@@ -33,16 +36,17 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
   return { ...body, mesh: body.mesh ?? (shape as Mesh) };
 }
 
-/** Beside this file, where nothing has bundled it. Not in its place below, lest bundlers take it for another file to copy. */
-const BESIDE = './bake-worker.js';
-
 /** Written as bundlers look for it. The name ends in .js for the published files; Vite finds the .ts beside it in the sources. */
 function defaultWorker(): Worker {
-  try {
-    return new Worker(new URL('./bake-worker.js', import.meta.url), { type: 'module', name: 'handlebody-bake' });
-  } catch (reason) {
-    return importingWorker(new URL(BESIDE, import.meta.url), 'handlebody-bake', reason);
-  }
+  return new Worker(new URL('./bake-worker.js', import.meta.url), { type: 'module', name: 'handlebody-bake' });
+}
+
+async function blobScript() {
+  const [{ BLOB_WORKER }, { moduleInside }] = await Promise.all([
+    import('./blob-worker.generated.ts'),
+    import('../../wasm/ts/module-inside.ts'),
+  ]);
+  return { script: BLOB_WORKER, wasm: await moduleInside() };
 }
 
 /** Copies that travel without being copied again. */

@@ -18,8 +18,16 @@ export interface InWorkerOptions {
   readonly onWarning?: (warning: BakeWarning) => void;
 }
 
+/** A worker whose script is text, and the compiled solver that it is sent. */
+interface BlobScript {
+  readonly script: string;
+  readonly wasm: WebAssembly.Module;
+}
+
 interface Work<Answer> extends InWorkerOptions {
   readonly worker: () => Worker;
+  /** Instead, where that does not start: bundlers know no file for it, or it is of another origin. */
+  readonly blob?: (() => Promise<BlobScript>) | undefined;
   /** What is asked, and what of it is handed over instead of copied. */
   readonly ask: () => readonly [question: unknown, transfer: Transferable[]];
   /** The same work on this thread. */
@@ -29,37 +37,44 @@ interface Work<Answer> extends InWorkerOptions {
 /** Has work done by a worker that `answer` listens in, or on this thread where none can be started. */
 export async function inWorker<Answer>(work: Work<Answer>): Promise<Answer> {
   throwIfAborted(work.signal);
-  let worker: Worker;
-  try {
-    worker = work.worker();
-  } catch (reason) {
-    work.onFallback?.(reason);
-    return work.here();
-  }
-  const outcome = await converse(worker, work);
-  if ('answer' in outcome) return outcome.answer;
-  work.onFallback?.(outcome.notStarted);
+  const first = await attempt(work, work.worker);
+  if ('answer' in first) return first.answer;
+  // Frames without an origin have no address for a blob in all browsers, and Node has no workers of this kind.
+  const hasBlobs = typeof Worker === 'function' && globalThis.origin !== 'null';
+  const second = hasBlobs && work.blob ? await attemptBlob(work, work.blob) : first;
+  if ('answer' in second) return second.answer;
+  throwIfAborted(work.signal);
+  work.onFallback?.(first.notStarted);
   return work.here();
 }
 
-/**
- * A worker of another origin's script, as on pages that take the library from a CDN: browsers start only scripts of the page's own origin, so
- * it is one that imports the other. Throws `reason` where that is not what kept a worker from starting.
- */
-export function importingWorker(script: URL, name: string, reason: unknown): Worker {
-  const here = globalThis.location?.origin;
-  if (!here || here === 'null' || script.origin === here || script.protocol === 'file:') throw reason;
-  const address = URL.createObjectURL(new Blob([`import ${JSON.stringify(script.href)};`], { type: 'text/javascript' }));
-  const worker = new Worker(address, { type: 'module', name });
-  const forget = () => URL.revokeObjectURL(address);
-  for (const type of ['message', 'error']) worker.addEventListener(type, forget, { once: true });
-  return worker;
+type Outcome<Answer> = { readonly answer: Answer } | { readonly notStarted: unknown };
+
+async function attempt<Answer>(work: Work<Answer>, make: () => Worker, wasm?: WebAssembly.Module): Promise<Outcome<Answer>> {
+  let worker: Worker;
+  try {
+    worker = make();
+  } catch (reason) {
+    return { notStarted: reason };
+  }
+  return converse(worker, work, wasm);
+}
+
+async function attemptBlob<Answer>(work: Work<Answer>, blob: () => Promise<BlobScript>): Promise<Outcome<Answer>> {
+  const { script, wasm } = await blob();
+  const address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
+  try {
+    return await attempt(work, () => new Worker(address, { type: 'module', name: 'handlebody' }), wasm);
+  } finally {
+    URL.revokeObjectURL(address);
+  }
 }
 
 async function converse<Answer>(
   worker: Worker,
   { ask, signal, onProgress, onWarning }: Work<Answer>,
-): Promise<{ answer: Answer } | { notStarted: unknown }> {
+  wasm: WebAssembly.Module | undefined,
+): Promise<Outcome<Answer>> {
   const listening = new AbortController();
   try {
     return await new Promise((resolve, reject) => {
@@ -80,7 +95,7 @@ async function converse<Answer>(
         if (reply.type === 'ready') {
           ready = true;
           const [question, transfer] = ask();
-          worker.postMessage({ type: 'work', question }, transfer);
+          worker.postMessage({ type: 'work', question, wasm }, transfer);
         } else if (reply.type === 'progress') onProgress?.(reply.part);
         else if (reply.type === 'warning') onWarning?.(reply.warning);
         else if (reply.type === 'done') resolve({ answer: reply.answer });

@@ -5,6 +5,8 @@ import type { BakeWarning } from '../../wasm/ts/types.ts';
 export interface WorkRequest<Question> {
   readonly type: 'work';
   readonly question: Question;
+  /** For a script that brings no solver of its own. */
+  readonly wasm?: WebAssembly.Module;
 }
 
 /** An error as plain data: a posted error loses its class and all properties of its own. */
