@@ -1,4 +1,4 @@
-// The site: every web/**/index.html is one page of it, and web/embed.html.
+// The site: every web/**/index.html is one page of it. The elements, and web/embed.html, are built apart: scripts/lib/standalone.mjs.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,11 +9,11 @@ const files = existsSync(web)
   ? readdirSync(web, { recursive: true, encoding: 'utf8' }).map((file) => file.replaceAll('\\', '/'))
   : [];
 
-/** studio/index.html becomes the page "studio", index.html the page "main", embed.html the page "embed". */
+/** studio/index.html becomes the page "studio", index.html the page "main". */
 const pages = files
-  .filter((file) => /(^|\/)index\.html$|^embed\.html$/.test(file))
+  .filter((file) => /(^|\/)index\.html$/.test(file))
   .sort()
-  .map((file) => [file.replace(/\/?(index)?\.html$/, '').replaceAll('/', '-') || 'main', path.join(web, file)]);
+  .map((file) => [path.posix.dirname(file).replace(/^\.$/, 'main').replaceAll('/', '-'), path.join(web, file)]);
 
 /** What several pages have alike is written once: <!--#include "../figures/head.html"-->, beside the page that asks for it. */
 const includes: Plugin = {
@@ -41,8 +41,19 @@ export default defineConfig({
     chunkSizeWarningLimit: 1000,
     rolldownOptions: {
       input: Object.fromEntries(pages),
-      // three.js in a chunk of its own: cached over our releases, and told apart by the size budget.
-      output: { codeSplitting: { groups: [{ name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ }] } },
+      output: {
+        codeSplitting: {
+          groups: [
+            // In a chunk of its own: cached over our releases, and told apart by the size budget.
+            { name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ },
+            // What nearly every page needs: many small chunks compress worse than one.
+            {
+              name: 'page',
+              test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\./,
+            },
+          ],
+        },
+      },
     },
   },
 });

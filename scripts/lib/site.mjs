@@ -15,5 +15,5 @@ export function hasPages() {
 export async function buildSite() {
   const { build } = await import('vite');
   await build({ configFile: at('vite.config.ts'), logLevel: 'warn' });
-  await buildStandalone('build/site');
+  await buildStandalone('build/site', { embed: true });
 }

@@ -1,8 +1,13 @@
 // The elements for pages without a bundler: handlebody.standalone.js with three.js in it, and in standalone/ what it fetches when asked.
+import { readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
 import { at } from './paths.mjs';
 
-/** @param {string} folder Where to, from the project's folder; what lies there stays. */
-export async function buildStandalone(folder) {
+/**
+ * @param {string} folder Where to, from the project's folder; what lies there stays.
+ * @param {{ embed?: boolean }} [options] Whether embed.html, the page that others frame, comes with it.
+ */
+export async function buildStandalone(folder, { embed = false } = {}) {
   const { build } = await import('vite');
   await build({
     configFile: false,
@@ -18,10 +23,13 @@ export async function buildStandalone(folder) {
       modulePreload: false,
       chunkSizeWarningLimit: 1000,
       rolldownOptions: {
-        input: { 'handlebody.standalone': at('web/element/index.ts') },
+        input: { 'handlebody.standalone': at('web/element/index.ts'), ...(embed && { embed: at('web/embed/main.ts') }) },
         preserveEntrySignatures: 'strict',
         output: { entryFileNames: '[name].js', chunkFileNames: 'standalone/[name]-[hash].js' },
       },
     },
   });
+  if (!embed) return;
+  const page = readFileSync(at('web', 'embed.html'), 'utf8');
+  writeFileSync(path.join(at(folder), 'embed.html'), page.replace('./embed/main.ts', './embed.js'));
 }

@@ -173,6 +173,10 @@ describe('manners on the page', () => {
     await loaded(page);
     await still(page, PAW);
     expect((await counts()).contexts).toBe(1);
+    // One file, read once, however many show it.
+    const files = () =>
+      page.evaluate(() => performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('dog.glb')).length);
+    expect(await files()).toBe(1);
     const { draws } = await counts();
     await frames(page, 20);
     expect((await counts()).draws).toBe(draws);

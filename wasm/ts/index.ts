@@ -1,6 +1,6 @@
 import { WASM_BYTES, WASM_DEFLATED_BASE64 } from './binary.generated.ts';
 import { Handlebody } from './handlebody.ts';
-import { loadInline } from './inline.ts';
+import { compile, loadInline } from './inline.ts';
 import type { LoadOptions } from './load.ts';
 
 export * from './api.ts';
@@ -15,5 +15,12 @@ export * from './api.ts';
  * ```
  */
 export async function load(options: LoadOptions = {}): Promise<Handlebody> {
-  return new Handlebody(await loadInline('handlebody.wasm', { bytes: WASM_BYTES, deflated: WASM_DEFLATED_BASE64 }, options));
+  return new Handlebody(await loadInline('handlebody.wasm', INSIDE, options));
+}
+
+const INSIDE = { bytes: WASM_BYTES, deflated: WASM_DEFLATED_BASE64 };
+
+/** The wasm inside, compiled: to be sent to a worker that has none. @internal */
+export function moduleInside(): Promise<WebAssembly.Module> {
+  return compile(INSIDE);
 }

@@ -1,13 +1,11 @@
-import type { Object3D } from 'three';
 import type { BodyData } from '../../wasm/ts/runtime.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
 import { type Draggable, draggable } from '../three/draggable.ts';
-import { fetchModel } from '../three/fetch-model.ts';
 import { meshFromObject } from '../three/geometry.ts';
-import { loadModel } from '../three/load-model.ts';
 import type { Progress } from '../ui/progress.ts';
 import type { AskedHandle } from './handles-text.ts';
 import { runtime } from './runtime.ts';
+import { type SharedModel, shareModel } from './shared-model.ts';
 import { type CameraState, ViewFrame } from './view-frame.ts';
 
 type Place = readonly [x: number, y: number, z: number];
@@ -54,9 +52,10 @@ export async function showBody(options: BodyOptions): Promise<BodyShowing> {
     options.onPart(part);
   };
   progress.begin('Loading the model…');
-  const model = await loadModel(await fetchModel(src, signal, tell));
-  const showing = new BodyShowing(model.object, options);
+  const model = await shareModel(src, signal, tell);
+  let showing: BodyShowing | undefined;
   try {
+    showing = new BodyShowing(model, options);
     // The first picture waits for nothing else.
     options.onFirst();
     const body = model.body ?? (await bake(meshFromObject(model.object).mesh, progress, signal, tell));
@@ -65,7 +64,8 @@ export async function showBody(options: BodyOptions): Promise<BodyShowing> {
     showing.bring(hb, body);
     return showing;
   } catch (error) {
-    showing.dispose();
+    showing?.dispose();
+    model.release();
     throw error;
   }
 }
@@ -85,17 +85,17 @@ async function bake(mesh: Mesh, progress: Progress, signal: AbortSignal, onProgr
 /** A model on the page, in a view of its own. */
 export class BodyShowing {
   readonly #options: BodyOptions;
-  readonly #object: Object3D;
+  readonly #model: SharedModel;
   readonly #frame: ViewFrame;
   #speaking: ReturnType<typeof setTimeout> | undefined;
   #drag: Draggable | undefined;
   readonly #step = () => this.#advance();
 
-  constructor(object: Object3D, options: BodyOptions) {
-    [this.#object, this.#options] = [object, options];
+  constructor(model: SharedModel, options: BodyOptions) {
+    [this.#model, this.#options] = [model, options];
     this.#frame = new ViewFrame(options.stage, options);
     this.#frame.view.onDrawn = () => this.#drag?.place();
-    this.#frame.view.show(object);
+    this.#frame.view.show(model.object);
     this.look(options.camera);
     if (options.state) this.#frame.recall(options.state.camera);
   }
@@ -125,14 +125,14 @@ export class BodyShowing {
 
   /** From where it is seen: "58deg 14deg". */
   look(angles: string): void {
-    this.#frame.look(this.#object, angles, VIEW, true);
+    this.#frame.look(this.#model.object, angles, VIEW, true);
   }
 
   /** The body has come: from now on it can be dragged. */
   bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData): void {
     const { state, handles, onError } = this.#options;
     const asked = state?.handles ?? handles;
-    const drag = draggable(this.#object, body, {
+    const drag = draggable(this.#model.object, body, {
       hb,
       camera: this.#frame.view.camera,
       container: this.#frame.overlay,
@@ -172,6 +172,7 @@ export class BodyShowing {
     clearTimeout(this.#speaking);
     this.#drag?.dispose();
     this.#frame.dispose();
+    this.#model.release();
   }
 
   #advance(): boolean {

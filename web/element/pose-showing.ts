@@ -1,6 +1,3 @@
-import type { Object3D } from 'three';
-import { fetchModel } from '../three/fetch-model.ts';
-import { loadModel } from '../three/load-model.ts';
 import type { LoadedPoseSpace } from '../three/loader.ts';
 import { type PoseDriver, poseDriver } from '../three/pose-driver.ts';
 import { h } from '../ui/dom.ts';
@@ -10,6 +7,7 @@ import type { Progress } from '../ui/progress.ts';
 import { type NamedPlace, placeIn } from './place-text.ts';
 import { PosePlane } from './pose-plane.ts';
 import { runtime } from './runtime.ts';
+import { type SharedModel, shareModel } from './shared-model.ts';
 import { type CameraState, ViewFrame } from './view-frame.ts';
 
 /** Somebody went to a place: the detail of the event "change". */
@@ -48,13 +46,23 @@ const EASE_SECONDS = 0.09;
 
 /** Fetches a model with a pose space and shows it. Throws what is to be told; nothing is left behind then. */
 export async function showPose(options: PoseOptions): Promise<PoseShowing> {
-  const { src, signal, progress, state } = options;
+  const { src, signal, progress } = options;
   progress.begin('Loading the model…');
-  const buffer = await fetchModel(src, signal, (part) => {
+  const model = await shareModel(src, signal, (part) => {
     progress.set(part);
     options.onPart(part);
   });
-  const { object, space } = await loadModel(buffer);
+  try {
+    return await show(model, options);
+  } catch (error) {
+    model.release();
+    throw error;
+  }
+}
+
+async function show(model: SharedModel, options: PoseOptions): Promise<PoseShowing> {
+  const { signal, state } = options;
+  const { space } = model;
   if (!space) {
     throw new PageError(
       'no-pose-space',
@@ -63,7 +71,7 @@ export async function showPose(options: PoseOptions): Promise<PoseShowing> {
     );
   }
   const at = placeIn(space.dimensions, state.at);
-  const showing = new PoseShowing(object, space, options);
+  const showing = new PoseShowing(model, space, options);
   try {
     options.onFirst();
     const hb = await runtime();
@@ -79,7 +87,7 @@ export async function showPose(options: PoseOptions): Promise<PoseShowing> {
 /** A face on the page, in a view of its own. */
 export class PoseShowing {
   readonly #options: PoseOptions;
-  readonly #object: Object3D;
+  readonly #model: SharedModel;
   readonly #space: LoadedPoseSpace;
   readonly #frame: ViewFrame;
   readonly #plane: PosePlane;
@@ -91,8 +99,8 @@ export class PoseShowing {
   /** The plane lies on the picture where there is room, else below it. */
   readonly #sizes = new ResizeObserver(() => this.#arrange());
 
-  constructor(object: Object3D, space: LoadedPoseSpace, options: PoseOptions) {
-    [this.#object, this.#space, this.#options] = [object, space, options];
+  constructor(model: SharedModel, space: LoadedPoseSpace, options: PoseOptions) {
+    [this.#model, this.#space, this.#options] = [model, space, options];
     this.#to = this.#at = space.dimensions.map(() => 0);
     this.#frame = new ViewFrame(options.stage, options);
     this.#plane = new PosePlane(space, (x, y) => this.#steer(x, y));
@@ -101,7 +109,7 @@ export class PoseShowing {
     options.stage.append(this.#panel);
     this.#sizes.observe(options.stage);
     this.controls = options.controls;
-    this.#frame.view.show(object);
+    this.#frame.view.show(model.object);
     this.look(options.camera);
     if (options.state.camera) this.#frame.recall(options.state.camera);
   }
@@ -130,7 +138,7 @@ export class PoseShowing {
   }
 
   look(angles: string): void {
-    this.#frame.look(this.#object, angles, VIEW, false);
+    this.#frame.look(this.#model.object, angles, VIEW, false);
   }
 
   /** The solver has come: from now on it can be moved. */
@@ -150,6 +158,7 @@ export class PoseShowing {
     this.#sizes.disconnect();
     this.#driver?.dispose();
     this.#frame.dispose();
+    this.#model.release();
     this.#panel.remove();
   }
 

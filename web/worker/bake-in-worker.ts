@@ -44,7 +44,7 @@ function defaultWorker(): Worker {
 async function blobScript() {
   const [{ BLOB_WORKER }, { moduleInside }] = await Promise.all([
     import('./blob-worker.generated.ts'),
-    import('../../wasm/ts/module-inside.ts'),
+    import('../../wasm/ts/index.ts'),
   ]);
   return { script: BLOB_WORKER, wasm: await moduleInside() };
 }
