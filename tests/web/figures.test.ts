@@ -59,10 +59,12 @@ describe.each(FIGURES)('$id', ({ id, load }) => {
 
   it('a link that is partly wrong opens as far as it is right, and says what was left out', async () => {
     const { page } = await openFigure(browser, `${id}&v1&nonsense=1&points=x`);
-    expect(await page.locator('.notice').textContent()).toContain('nonsense=1');
+    // The page may not have heard yet that its address is another one.
+    await soon(() => page.locator('.notice').textContent()).toContain('nonsense=1');
+    await settled(page);
     expect(Object.keys(await told(page)).length).toBeGreaterThan(0);
     await openFigure(browser, `${id}&v99&power=3`);
-    expect(await page.locator('.notice').textContent()).toMatch(/newer version/);
+    await soon(() => page.locator('.notice').textContent()).toMatch(/newer version/);
   });
 });
 

@@ -403,8 +403,8 @@ describe('what does not come', () => {
     await rested(page);
     await finished(page);
     expect(await page.locator('.tile[data-method=irbf-interior][data-drawn]').count()).toBe(1);
-    // And where no second thread starts, it is said that the page does the work itself.
-    await page.route('**/bake-worker-*.js', (route) => route.abort());
+    // And where no second thread starts, neither from its file nor from the text, it is said that the page does the work itself.
+    await page.route(/\/(bake|blob)-worker[.-][^/]*\.js/, (route) => route.abort());
     await page.getByRole('radio', { name: /^Euclidean/ }).check();
     await soon(() => trouble(page)).toMatch(/^No second thread could be started/);
     await rested(page);

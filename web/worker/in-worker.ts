@@ -61,7 +61,14 @@ async function attempt<Answer>(work: Work<Answer>, make: () => Worker, wasm?: We
 }
 
 async function attemptBlob<Answer>(work: Work<Answer>, blob: () => Promise<BlobScript>): Promise<Outcome<Answer>> {
-  const { script, wasm } = await blob();
+  let given: BlobScript;
+  try {
+    given = await blob();
+  } catch (reason) {
+    // The part of the library that has it did not come either.
+    return { notStarted: reason };
+  }
+  const { script, wasm } = given;
   const address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   try {
     return await attempt(work, () => new Worker(address, { type: 'module', name: 'handlebody' }), wasm);
