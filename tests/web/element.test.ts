@@ -264,6 +264,23 @@ describe('what goes wrong', () => {
     expect(await page.locator('handle-body [part=message]').isVisible()).toBe(false);
   });
 
+  it('a model that cannot be baked leaves the poster, or what was shown before', async () => {
+    const broken = { 'broken.glb': glb({ positions: [...positions.slice(0, -1), Number.NaN], indices }) };
+    const { page } = await tagPage(browser, `<handle-body src="broken.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`, {
+      files: broken,
+    });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('src', 'dog.glb'));
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('src', 'broken.glb'));
+    await page.locator('handle-body [part=message]').waitFor();
+    expect(await page.locator('handle-body [part=canvas]').count()).toBe(1);
+    expect(await page.locator('handle-body [part=handle]').count()).toBe(6);
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+  });
+
   it('a model that did not come at first comes by Try again', async () => {
     const { page } = await tagPage(browser, dog());
     await page.route('**/dog.glb', (route) => route.abort());

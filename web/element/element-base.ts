@@ -212,6 +212,7 @@ export abstract class ElementBase extends PageElement {
       if (work.signal.aborted && this.#work !== work) return;
       this.#failed = true;
       this.#work = undefined;
+      this.#showPoster();
       this.tell(isAbort(error) ? cancelled() : error, () => {
         this.quiet();
         this.again();

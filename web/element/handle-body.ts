@@ -90,8 +90,8 @@ export class HandleBodyElement extends ElementBase {
     });
     this.#body = body;
     const forget = () => {
-      this.#state = body.state;
-      if (this.#body === body) this.#body = undefined;
+      // Another one may have taken its place, whose state is its own.
+      if (this.#body === body) [this.#state, this.#body] = [body.state, undefined];
       body.dispose();
     };
     return { see: (seen) => body.see(seen), dispose: forget };

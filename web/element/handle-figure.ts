@@ -50,8 +50,8 @@ export class HandleFigureElement extends ElementBase {
     });
     this.#figure = figure;
     const dispose = () => {
-      this.#left = figure.state;
-      if (this.#figure === figure) this.#figure = undefined;
+      // Another one may have taken its place, whose state is its own.
+      if (this.#figure === figure) [this.#left, this.#figure] = [figure.state, undefined];
       figure.dispose();
     };
     return { see: (seen) => figure.see(seen), dispose };

@@ -66,8 +66,8 @@ export class PoseSpaceElement extends ElementBase {
     });
     this.#pose = pose;
     const dispose = () => {
-      this.#state = pose.state;
-      if (this.#pose === pose) this.#pose = undefined;
+      // Another one may have taken its place, whose state is its own.
+      if (this.#pose === pose) [this.#state, this.#pose] = [pose.state, undefined];
       pose.dispose();
     };
     return { see: (seen) => pose.see(seen), dispose };

@@ -27,7 +27,8 @@ export class ViewFrame {
     this.#viewport = h('div', { class: 'viewport', part: 'viewport', role: 'application' }, canvas, this.overlay);
     const note = h('p', { class: 'note', role: 'status', hidden: true });
     this.element = h('div', { class: 'stage' }, this.#viewport, note, this.spoken);
-    stage.replaceChildren(this.element);
+    // Over what is shown until this is ready, which stays where it is not to be.
+    stage.append(this.element);
     this.view = new View(canvas, this.#viewport, sharedEasel());
     this.view.onInterrupted = noteIn(note);
     this.#tools = cameraTools(this.view, this.#viewport);

@@ -193,6 +193,8 @@ export class Draggable {
       return;
     }
     this.#shown.update(live.positions, live.normals);
+    // In words when it has come to rest: a frame makes none.
+    if (this.#awake) return;
     this.#rest.forEach((rest, i) => {
       const moved = this.target(i, this.#place).distanceTo(rest) / live.data.normalization.diagonal;
       this.overlay.describe(i, moved < AT_REST ? 'at rest' : `moved by ${(100 * moved).toFixed(1)} % of the model’s size`);
