@@ -4,6 +4,7 @@ import { type Draggable, draggable } from '../three/draggable.ts';
 import { meshFromObject } from '../three/geometry.ts';
 import type { Progress } from '../ui/progress.ts';
 import type { AskedHandle } from './handles-text.ts';
+import type { ModelOptions, ModelShowing } from './model-element.ts';
 import { runtime } from './runtime.ts';
 import { type SharedModel, shareModel } from './shared-model.ts';
 import { type CameraState, ViewFrame } from './view-frame.ts';
@@ -25,20 +26,10 @@ export interface BodyState {
   readonly camera: CameraState;
 }
 
-interface BodyOptions {
-  readonly src: URL;
-  readonly alt: string;
-  readonly stage: HTMLElement;
+interface BodyOptions extends ModelOptions {
   readonly handles: readonly AskedHandle[] | undefined;
-  readonly camera: string;
-  readonly controls: boolean;
   readonly state: BodyState | undefined;
-  readonly progress: Progress;
-  readonly signal: AbortSignal;
-  readonly onPart: (part: number | undefined) => void;
-  readonly onFirst: () => void;
   readonly onChange: (change: HandleChange) => void;
-  readonly onError: (error: unknown) => void;
   readonly onGood: () => void;
 }
 
@@ -83,7 +74,7 @@ async function bake(mesh: Mesh, progress: Progress, signal: AbortSignal, onProgr
 }
 
 /** A model on the page, in a view of its own. */
-export class BodyShowing {
+export class BodyShowing implements ModelShowing {
   readonly #options: BodyOptions;
   readonly #model: SharedModel;
   readonly #frame: ViewFrame;

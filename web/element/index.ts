@@ -16,6 +16,7 @@ export { ElementBase, type ElementError, PageElement, type Showing } from './ele
 export { HandleBodyElement } from './handle-body.ts';
 export { HandleFigureElement } from './handle-figure.ts';
 export type { AskedHandle } from './handles-text.ts';
+export { ModelElement } from './model-element.ts';
 export type { NamedPlace } from './place-text.ts';
 export type { PlaceChange } from './pose-showing.ts';
 export { PoseSpaceElement } from './pose-space.ts';

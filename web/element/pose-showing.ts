@@ -3,7 +3,7 @@ import { type PoseDriver, poseDriver } from '../three/pose-driver.ts';
 import { h } from '../ui/dom.ts';
 import { reducedMotion } from '../ui/motion.ts';
 import { PageError } from '../ui/page-error.ts';
-import type { Progress } from '../ui/progress.ts';
+import type { ModelOptions, ModelShowing } from './model-element.ts';
 import { type NamedPlace, placeIn } from './place-text.ts';
 import { PosePlane } from './pose-plane.ts';
 import { runtime } from './runtime.ts';
@@ -23,19 +23,9 @@ export interface PoseState {
   readonly camera?: CameraState;
 }
 
-interface PoseOptions {
-  readonly src: URL;
-  readonly alt: string;
-  readonly stage: HTMLElement;
-  readonly camera: string;
-  readonly controls: boolean;
+interface PoseOptions extends ModelOptions {
   readonly state: PoseState;
-  readonly progress: Progress;
-  readonly signal: AbortSignal;
-  readonly onPart: (part: number | undefined) => void;
-  readonly onFirst: () => void;
   readonly onChange: (change: PlaceChange) => void;
-  readonly onError: (error: unknown) => void;
 }
 
 const VIEW = { azimuth: 9, elevation: 2 };
@@ -85,7 +75,7 @@ async function show(model: SharedModel, options: PoseOptions): Promise<PoseShowi
 }
 
 /** A face on the page, in a view of its own. */
-export class PoseShowing {
+export class PoseShowing implements ModelShowing {
   readonly #options: PoseOptions;
   readonly #model: SharedModel;
   readonly #space: LoadedPoseSpace;

@@ -1,0 +1,103 @@
+import { PageError } from '../ui/page-error.ts';
+import type { Progress } from '../ui/progress.ts';
+import { ElementBase, type Showing } from './element-base.ts';
+
+/** What every model is shown with. */
+export interface ModelOptions {
+  readonly src: URL;
+  readonly alt: string;
+  readonly stage: HTMLElement;
+  readonly camera: string;
+  readonly controls: boolean;
+  readonly progress: Progress;
+  readonly signal: AbortSignal;
+  readonly onPart: (part: number | undefined) => void;
+  readonly onFirst: () => void;
+  readonly onError: (error: unknown) => void;
+}
+
+/** A model on the page, and all that is kept of it when it is given back. */
+export interface ModelShowing extends Showing {
+  readonly state: unknown;
+  alt: string;
+  controls: boolean;
+  /** From where it is seen: "58deg 14deg". */
+  look(angles: string): void;
+}
+
+/**
+ * What elements have in common that show a model. Attributes: `src`, a GLB; `controls`, buttons for the camera, and more where the element has
+ * more; `camera`, "58deg 14deg", azimuth and height.
+ */
+export abstract class ModelElement extends ElementBase {
+  static override observedAttributes = [...ElementBase.observedAttributes, 'src', 'controls', 'camera'];
+  /** @internal */
+  protected shown: ModelShowing | undefined;
+  /** As it was left when it was given back. @internal */
+  protected state: unknown;
+
+  get src(): string {
+    return this.getAttribute('src') ?? '';
+  }
+
+  set src(address: string) {
+    this.setAttribute('src', address);
+  }
+
+  get controls(): boolean {
+    return this.hasAttribute('controls');
+  }
+
+  set controls(shown: boolean) {
+    this.toggleAttribute('controls', shown);
+  }
+
+  get camera(): string {
+    return this.getAttribute('camera') ?? '';
+  }
+
+  set camera(angles: string) {
+    this.setAttribute('camera', angles);
+  }
+
+  /** Shows it, from `this.state` where there is one. @internal */
+  protected abstract show(options: ModelOptions): Promise<ModelShowing>;
+
+  protected override async open(signal: AbortSignal): Promise<Showing> {
+    if (!this.src) throw new PageError('no-source', 'There is no model to show.', 'Give the address of a GLB as src.');
+    const { alt, stage, camera, controls, progress } = this;
+    const shown = await this.show({
+      ...{ src: new URL(this.src, document.baseURI), alt, stage, camera, controls, progress, signal },
+      onPart: (part) => this.dispatchEvent(new CustomEvent('progress', { detail: { part } })),
+      onFirst: () => this.first(),
+      onError: (error) => this.tell(error),
+    });
+    this.shown = shown;
+    const dispose = () => {
+      // Another one may have taken its place, whose state is its own.
+      if (this.shown === shown) [this.state, this.shown] = [shown.state, undefined];
+      shown.dispose();
+    };
+    return { see: (seen) => shown.see(seen), dispose };
+  }
+
+  protected override changed(attribute: string): void {
+    const { shown } = this;
+    if (attribute === 'src') {
+      this.state = undefined;
+      this.again();
+    } else if (attribute === 'camera') shown?.look(this.camera);
+    else if (attribute === 'controls' && shown) shown.controls = this.controls;
+    else if (attribute === 'alt' && shown) shown.alt = this.alt;
+  }
+
+  /** Does what a wrong attribute may keep from being done, which is then told. @internal */
+  protected attempt(work: () => void): void {
+    try {
+      work();
+      this.quiet();
+    } catch (error) {
+      this.tell(error);
+    }
+  }
+}
