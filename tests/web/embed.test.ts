@@ -1,7 +1,7 @@
 /** One figure in the frame of somebody else's page. */
-import { createServer } from 'node:http';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, inject, it, onTestFinished } from 'vitest';
+import { otherPage } from './support/other-site.ts';
 import { launch, soon } from './support/studio.ts';
 
 let browser: Browser;
@@ -14,9 +14,7 @@ type Heard = { type?: string; subject?: string; height?: number } | string;
 
 /** Another site's page, with a frame as a course would have it; what the frame says to it is in `heard`. */
 async function course(hash: string, frame = ''): Promise<Page> {
-  const server = createServer((_, response) => {
-    response.writeHead(200, { 'content-type': 'text/html' });
-    response.end(`<!doctype html><title>A course</title><script>
+  const home = await otherPage(`<!doctype html><title>A course</title><script>
       const heard = [];
       addEventListener('message', ({ data }) => {
         heard.push(data);
@@ -24,16 +22,10 @@ async function course(hash: string, frame = ''): Promise<Page> {
       });
     </script><h1>A course</h1><iframe ${frame} src="${inject('site')}embed.html#${hash}" style="width: 700px; height: 150px; border: 0"></iframe>
     <p style="height: 2000px">More text.</p>`);
-  });
-  await new Promise<void>((resolve) => server.listen(0, 'localhost', resolve));
   const context = await browser.newContext({ viewport: { width: 900, height: 600 }, reducedMotion: 'reduce' });
-  onTestFinished(async () => {
-    await context.close();
-    server.close();
-  });
+  onTestFinished(() => context.close());
   const page = await context.newPage();
-  const { port } = server.address() as { port: number };
-  await page.goto(`http://localhost:${port}/`);
+  await page.goto(home);
   return page;
 }
 

@@ -1,8 +1,8 @@
 import { existsSync, readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
 import { listen } from './listen.ts';
+import { otherSite } from './other-site.ts';
 
 interface TagPage extends BrowserContextOptions {
   /** Files of the page's own server, besides the page itself. */
@@ -24,7 +24,7 @@ export async function tagPage(
   { files = {}, before, ...options }: TagPage = {},
 ): Promise<{ page: Page; said: string[] }> {
   const site = inject('site');
-  const server = createServer((request, response) => {
+  const home = await otherSite((request, response) => {
     const name = (request.url ?? '').slice(1).replace(/\?.*/, '');
     const model = new URL(`../../../public/models/${name}`, import.meta.url);
     const body =
@@ -33,17 +33,12 @@ export async function tagPage(
     response.writeHead(body === undefined ? (name === 'favicon.ico' ? 204 : 404) : 200, { 'content-type': type });
     response.end(body);
   });
-  await new Promise<void>((resolve) => server.listen(0, 'localhost', resolve));
   const context = await browser.newContext({ viewport: { width: 900, height: 700 }, reducedMotion: 'reduce', ...options });
-  onTestFinished(async () => {
-    await context.close();
-    server.close();
-  });
+  onTestFinished(() => context.close());
   const page = await context.newPage();
   const said = listen(page);
   if (before) await page.addInitScript(before);
-  const { port } = server.address() as { port: number };
-  await page.goto(`http://localhost:${port}/page.html`);
+  await page.goto(`${home}page.html`);
   return { page, said };
 }
 
