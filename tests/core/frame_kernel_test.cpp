@@ -32,9 +32,10 @@ Case random_case(Index vertices, Index columns, unsigned seed) {
 
 /** The largest error of the displacement, against doubles. */
 double error(const Case& c, FramePrecision precision) {
-  FrameKernel kernel(c.positions, c.matrix, precision);
+  const FrameKernel kernel(c.positions, c.matrix, precision);
+  FrameKernel::Scratch scratch = kernel.scratch();
   PointsF displacement(c.positions.rows(), 3);
-  kernel.apply(c.linear, c.translation, c.coefficients, displacement);
+  kernel.apply(c.linear, c.translation, c.coefficients, scratch, displacement);
   Points expected = c.positions.cast<double>() * c.linear.transpose() + c.matrix.cast<double>() * c.coefficients;
   expected.rowwise() += c.translation.transpose();
   return (displacement.cast<double>() - expected).cwiseAbs().maxCoeff();

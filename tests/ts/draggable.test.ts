@@ -113,4 +113,21 @@ describe('draggable', () => {
     }
     expect(memory.at(-1)).toBe(memory[4]);
   });
+
+  it('shares a body among the copies on a page, whichever goes first', () => {
+    const [first, second] = [make(), make()];
+    first.setTarget(0, first.target(0).add(new Vector3(0, 0.2, 0)));
+    settle(first);
+    settle(second);
+    const rest = second.vertex(0).clone();
+    first.dispose();
+    const third = make();
+    second.dispose();
+    settle(third);
+    expect(third.vertex(0).distanceTo(rest)).toBeLessThan(1e-6);
+    third.setTarget(0, third.target(0).add(new Vector3(0, 0.2, 0)));
+    settle(third);
+    expect(third.vertex(0).distanceTo(rest)).toBeGreaterThan(1e-3);
+    third.dispose();
+  });
 });

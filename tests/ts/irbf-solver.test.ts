@@ -131,6 +131,19 @@ describe('kernels', () => {
     });
   });
 
+  it('keeps a kernel of the caller for as long as a deformation that shares it', () => {
+    const irbf = hb.irbf(bar, { kernel: (s) => 1 / Math.sqrt(1 + s * s) });
+    const second = irbf.share();
+    made.push(second);
+    irbf.dispose();
+    second.setHandles([{ vertex: 0 }, { at: [9, 1, 1] }]);
+    second.solve();
+    const out = second.evaluate([5, 1, 1]);
+    [5, 1, 1].forEach((x, axis) => {
+      expect(out[axis]).toBeCloseTo(x, 6);
+    });
+  });
+
   it('names a kernel that throws, one that is unknown, and one that cancels itself', () => {
     const attempt = (options: IrbfOptions) => () => {
       hb.irbf(bar, options);

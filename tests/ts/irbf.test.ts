@@ -1,6 +1,7 @@
 import fc from 'fast-check';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { type BodyData, type Handlebody, HandlebodyError, load, type Mesh } from '../../wasm/ts/index.ts';
+import { readDog } from './support/dog.ts';
 import { boxMesh, enclosedVolume } from './support/shapes.ts';
 
 const SEED = 20261122;
@@ -199,6 +200,40 @@ describe('irbf', () => {
     const memory = settled();
     for (let i = 0; i < 30; i++) prepare().dispose();
     expect(hb.memory).toBe(memory);
+  });
+
+  it('is shared: copies of a body deform apart, and outlive each other', () => {
+    const first = prepare();
+    const rest = positionsOf(first);
+    first.targets[1] = (first.targets[1] ?? 0) + 1;
+    first.solve();
+    const bent = positionsOf(first);
+    const second = first.share();
+    expect(second.handleCount).toBe(0);
+    expect(positionsOf(second)).toEqual(rest);
+    first.dispose();
+    expect(() => first.share()).toThrowError(expect.objectContaining({ code: 'disposed' }));
+    second.setHandles(corners.map((vertex) => ({ vertex })));
+    second.targets[1] = (second.targets[1] ?? 0) + 1;
+    second.solve();
+    expect(positionsOf(second)).toEqual(bent);
+    second.dispose();
+  });
+
+  it('takes at most a fifth of the memory for each copy that shares the served dog', async () => {
+    const dog = await readDog();
+    const alone = await load();
+    const empty = alone.memory;
+    const holding = (irbf: ReturnType<typeof prepare>) => {
+      irbf.setHandles([{ vertex: 0 }, { vertex: 9000 }, { vertex: 18000 }, { vertex: 24000 }]);
+      irbf.solve({ maxIterations: 1 });
+      return irbf;
+    };
+    const first = holding(alone.irbf(dog));
+    const one = alone.memory - empty;
+    const copies = Array.from({ length: 10 }, () => holding(first.share()));
+    expect(alone.memory - empty - one).toBeLessThan((10 / 5) * one);
+    for (const irbf of [first, ...copies]) irbf.dispose();
   });
 
   it('solves and deforms frame after frame in the memory that it has', () => {

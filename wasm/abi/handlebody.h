@@ -162,6 +162,10 @@ typedef struct hb_irbf_quality {
  * OUT_OF_MEMORY. */
 HB_API int32_t hb_irbf_create(const hb_body* body, const hb_irbf_options* options, hb_irbf** irbf);
 
+/* Another deformation of the body that `irbf` deforms, with the same options; at rest, and without handles. What depends on no handle,
+ * most of the memory, is shared by the two and lasts as long as either. */
+HB_API int32_t hb_irbf_share(const hb_irbf* irbf, hb_irbf** shared);
+
 /* Sets the handles: `points` count × 3 in model units, `kinds` 0 for a position handle, 1 for one that also sets rotation and scale.
  * Builds and factors the system, and puts every target at rest. Fails with HANDLE_* codes or
  * SYSTEM_SINGULAR and keeps the former handles. */

@@ -82,6 +82,11 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   return HB_OK;
 }
 
+int32_t hb_irbf_share(const hb_irbf* irbf, hb_irbf** shared) {
+  *shared = new hb_irbf{std::make_unique<Irbf>(irbf->irbf->prepared())};
+  return HB_OK;
+}
+
 int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count) {
   std::vector<handlebody::HandleKind> list(count);
   std::transform(kinds, kinds + count, list.begin(),

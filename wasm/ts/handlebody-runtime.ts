@@ -1,6 +1,6 @@
 import { DualQuaternion } from './dual-quaternion.ts';
 import type { Heap } from './heap.ts';
-import { Irbf } from './irbf.ts';
+import { createIrbf, type Irbf } from './irbf.ts';
 import { LinearBlend, type LinearBlendOptions } from './linear-blend.ts';
 import { MovingLeastSquares, type MovingLeastSquaresOptions } from './moving-least-squares.ts';
 import { NaturalNeighbor, type NaturalNeighborOptions } from './natural-neighbor.ts';
@@ -35,7 +35,7 @@ export class HandlebodyRuntime {
 
   /** Prepares a baked body for deformation by handles. */
   irbf(body: BodyData, options: IrbfOptions = {}): Irbf {
-    return new Irbf(this.#heap, body, options);
+    return createIrbf(this.#heap, body, options);
   }
 
   /** Prepares examples in a pose space for interpolation. */

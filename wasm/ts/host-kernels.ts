@@ -9,7 +9,7 @@ const STEP = 6e-6;
  * failure is kept, NaN is returned, and `throwFailure()` throws it when the solver has returned.
  */
 export class HostKernels {
-  readonly #kernels = new Map<number, { value: KernelFunction; derivative: KernelFunction }>();
+  readonly #kernels = new Map<number, { value: KernelFunction; derivative: KernelFunction; users: number }>();
   #next = 1;
   #failure: { readonly s: number; readonly got: unknown; readonly thrown: boolean } | undefined;
 
@@ -23,12 +23,20 @@ export class HostKernels {
         const low = Math.max(0, s - h);
         return (value(s + h) - value(low)) / (s + h - low);
       });
-    this.#kernels.set(this.#next, { value, derivative });
+    this.#kernels.set(this.#next, { value, derivative, users: 1 });
     return this.#next++;
   }
 
+  /** One user more of a kernel that was added; nothing where the number is of none. */
+  share(id: number): void {
+    const kernel = this.#kernels.get(id);
+    if (kernel) kernel.users++;
+  }
+
+  /** One user less; the last one's going takes the kernel away. */
   remove(id: number): void {
-    this.#kernels.delete(id);
+    const kernel = this.#kernels.get(id);
+    if (kernel && --kernel.users === 0) this.#kernels.delete(id);
   }
 
   /** What the solver calls: never throws. */

@@ -2,7 +2,7 @@ import { LAYOUT } from './abi.generated.ts';
 import { checkMeshArrays } from './check-mesh.ts';
 import { HandlebodyError } from './errors.ts';
 import { hashPositions } from './hash.ts';
-import type { Heap } from './heap.ts';
+import type { Heap, Scratch } from './heap.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
 import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport } from './types.ts';
 
@@ -37,48 +37,12 @@ export class Irbf {
   #targets = new Float64Array();
   #hasRestNormals = false;
 
-  /** @internal Use `Handlebody.irbf`. */
-  constructor(heap: Heap, body: BodyData, given: IrbfOptions) {
-    const options = resolve(given);
-    checkBody(body);
+  /** @internal Use `Handlebody.irbf`. Takes the solver's pointer, and the number of a caller's kernel (0 for none). */
+  constructor(heap: Heap, body: BodyData, irbf: number, hostKernel: number) {
     this.#heap = heap;
     this.#body = body;
-    this.#hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
-    this.#irbf = this.#run(
-      () =>
-        heap.scope((scratch) => {
-          const layout = LAYOUT.hb_body;
-          const at = scratch.reserve(layout.sizeof);
-          const arrays = {
-            positions: scratch.putF64(body.mesh.positions),
-            triangles: scratch.putU32(body.mesh.triangles),
-            voxels: scratch.putU32(body.voxels),
-            centers: scratch.putU32(body.centers),
-            distances: scratch.putU16(body.distances),
-            spheres: scratch.putF64(body.spheres),
-          };
-          const out = scratch.reserve(4);
-          heap.f64(at + layout.center, 3).set(body.normalization.center);
-          heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;
-          heap.f64(at + layout.origin, 3).set(body.grid.origin);
-          heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
-          heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
-          heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
-          const words = {
-            vertex_count: body.mesh.positions.length / 3,
-            triangle_count: body.mesh.triangles.length / 3,
-            voxel_count: body.voxels.length,
-            center_count: body.centers.length,
-            sphere_count: body.spheres.length / 4,
-            ...arrays,
-          };
-          for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
-          const how = writeOptions(heap, scratch, options, this.#hostKernel);
-          heap.check((e) => e.hb_irbf_create(at, how, out));
-          return heap.u32(out, 1)[0] ?? 0;
-        }),
-      () => heap.kernels.remove(this.#hostKernel),
-    );
+    this.#irbf = irbf;
+    this.#hostKernel = hostKernel;
     // Allocated once, so that a frame allocates nothing.
     const bytes = body.mesh.positions.length * 4;
     this.#positions = heap.alloc(bytes);
@@ -128,7 +92,7 @@ export class Irbf {
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
-      this.#run(() => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
     });
     this.#handles = handles.length;
     this.#targets = heap
@@ -182,7 +146,7 @@ export class Irbf {
       const layout = LAYOUT.hb_irbf_quality;
       const corners = scratch.putU32(tetrahedra);
       const out = scratch.reserve(layout.sizeof);
-      this.#run(() => heap.check((e) => e.hb_irbf_measure(irbf, corners, tetrahedra.length / 4, out)));
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_measure(irbf, corners, tetrahedra.length / 4, out)));
       const number = (offset: number) => heap.f64(out + offset, 1)[0] ?? 0;
       const word = (offset: number) => heap.u32(out + offset, 1)[0] ?? 0;
       return {
@@ -233,10 +197,31 @@ export class Irbf {
     }
     heap.scope((scratch) => {
       const [from, to] = [scratch.putF64(points), scratch.reserve(points.length * 8)];
-      this.#run(() => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
       out.set(heap.f64(to, out.length));
     });
     return out;
+  }
+
+  /**
+   * Another deformation of the same body with the same options, at rest and without handles, for a second copy of it on the page. What does
+   * not depend on handles is shared: for the dog, some nine tenths of the memory. Each is disposed of by itself.
+   *
+   * ```ts
+   * const second = irbf.share();
+   * second.setHandles([{ vertex: 7 }]);
+   * ```
+   */
+  share(): Irbf {
+    const heap = this.#heap;
+    const irbf = this.#alive();
+    const shared = heap.scope((scratch) => {
+      const out = scratch.reserve(4);
+      heap.check((e) => e.hb_irbf_share(irbf, out));
+      return heap.u32(out, 1)[0] ?? 0;
+    });
+    heap.kernels.share(this.#hostKernel);
+    return new Irbf(heap, this.#body, shared, this.#hostKernel);
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -251,19 +236,6 @@ export class Irbf {
 
   [Symbol.dispose](): void {
     this.dispose();
-  }
-
-  /** Runs what calls the kernel. Where that is the caller's and failed, its own error is thrown, which says more. */
-  #run<T>(call: () => T, onFailure?: () => void): T {
-    try {
-      const result = call();
-      this.#heap.kernels.throwFailure();
-      return result;
-    } catch (error) {
-      onFailure?.();
-      this.#heap.kernels.throwFailure(error);
-      throw error;
-    }
   }
 
   #alive(): number {
@@ -281,6 +253,70 @@ export class Irbf {
       message: `The ${name} have ${length} numbers, the mesh has ${expected}.`,
       remedy: 'Give x, y and z for every vertex of the baked mesh, in its order.',
     });
+  }
+}
+
+/** @internal See `Handlebody.irbf`. */
+export function createIrbf(heap: Heap, body: BodyData, given: IrbfOptions): Irbf {
+  const options = resolve(given);
+  checkBody(body);
+  const hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
+  try {
+    const irbf = runKernel(heap, () =>
+      heap.scope((scratch) => {
+        const at = writeBody(heap, scratch, body);
+        const how = writeOptions(heap, scratch, options, hostKernel);
+        const out = scratch.reserve(4);
+        heap.check((e) => e.hb_irbf_create(at, how, out));
+        return heap.u32(out, 1)[0] ?? 0;
+      }),
+    );
+    return new Irbf(heap, body, irbf, hostKernel);
+  } catch (error) {
+    heap.kernels.remove(hostKernel);
+    throw error;
+  }
+}
+
+/** A body as the ABI's hb_body. */
+function writeBody(heap: Heap, scratch: Scratch, body: BodyData): number {
+  const layout = LAYOUT.hb_body;
+  const at = scratch.reserve(layout.sizeof);
+  const arrays = {
+    positions: scratch.putF64(body.mesh.positions),
+    triangles: scratch.putU32(body.mesh.triangles),
+    voxels: scratch.putU32(body.voxels),
+    centers: scratch.putU32(body.centers),
+    distances: scratch.putU16(body.distances),
+    spheres: scratch.putF64(body.spheres),
+  };
+  heap.f64(at + layout.center, 3).set(body.normalization.center);
+  heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;
+  heap.f64(at + layout.origin, 3).set(body.grid.origin);
+  heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
+  heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
+  heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
+  const words = {
+    vertex_count: body.mesh.positions.length / 3,
+    triangle_count: body.mesh.triangles.length / 3,
+    voxel_count: body.voxels.length,
+    center_count: body.centers.length,
+    sphere_count: body.spheres.length / 4,
+    ...arrays,
+  };
+  for (const [name, value] of Object.entries(words)) heap.u32(at + layout[name as keyof typeof words], 1)[0] = value;
+  return at;
+}
+
+/** Runs what calls the kernel. Where that is the caller's and failed, its own error is thrown, which says more. */
+function runKernel<T>(heap: Heap, call: () => T): T {
+  try {
+    const result = call();
+    heap.kernels.throwFailure();
+    return result;
+  } catch (error) {
+    heap.kernels.throwFailure(error);
+    throw error;
   }
 }
 

@@ -24,12 +24,27 @@ export interface Round {
   readonly converged: boolean;
 }
 
+/**
+ * Deformations under way of each body of each solver. Copies of a model on one page share what depends on no handle, which is most of a
+ * body's memory: each new one shares with any that is still there.
+ */
+const alive = new WeakMap<HandlebodyRuntime, WeakMap<BodyData, Set<Irbf>>>();
+
+function deformationsOf(solver: HandlebodyRuntime, data: BodyData): Set<Irbf> {
+  const bodies = alive.get(solver) ?? new WeakMap<BodyData, Set<Irbf>>();
+  const deformations = bodies.get(data) ?? new Set();
+  alive.set(solver, bodies.set(data, deformations));
+  return deformations;
+}
+
 /** A body under deformation. Handles or targets that the solver refuses leave it as it was. */
 export class LiveBody {
   readonly data: BodyData;
   readonly positions: Float32Array;
   readonly normals: Float32Array;
   readonly #irbf: Irbf;
+  /** Its own among them. */
+  readonly #deformations: Set<Irbf>;
   #handles: readonly Handle[] = [];
   /** Targets of the last solution. */
   #good = new Float64Array();
@@ -38,7 +53,10 @@ export class LiveBody {
     this.data = data;
     this.positions = new Float32Array(data.mesh.positions);
     this.normals = new Float32Array(data.mesh.positions.length);
-    this.#irbf = solver.irbf(data);
+    this.#deformations = deformationsOf(solver, data);
+    const [other] = this.#deformations;
+    this.#irbf = other ? other.share() : solver.irbf(data);
+    this.#deformations.add(this.#irbf);
     if (restNormals) this.#irbf.setRestNormals(restNormals);
   }
 
@@ -102,6 +120,7 @@ export class LiveBody {
   }
 
   dispose(): void {
+    this.#deformations.delete(this.#irbf);
     this.#irbf.dispose();
   }
 }

@@ -54,7 +54,6 @@ FrameKernel::FrameKernel(const PointsF& positions, const MatrixF& matrix, FrameP
 
 void FrameKernel::store_floats(const MatrixF& matrix) {
   floats_.resize((vertices_ + lanes - 1) / lanes * columns_);
-  coefficients_.resize(columns_, 3);
   for (Index v = 0; v < vertices_; ++v) {
     FloatTile* row = floats_.data() + v / lanes * columns_;
     for (Index c = 0; c < columns_; ++c) row[c][v % lanes / 4][v % 4] = matrix(v, c);
@@ -65,8 +64,6 @@ void FrameKernel::store_fixed(const MatrixF& matrix) {
   const Index pairs = (columns_ + 1) / 2, chunks = (pairs + chunk - 1) / chunk;
   const auto columns = static_cast<std::size_t>(columns_);
   fixed_.resize((vertices_ + lanes - 1) / lanes * pairs);
-  packed_.resize(3 * pairs);
-  worth_.resize(3 * chunks);
   largest_sums_.assign(chunks, 0);
   std::vector<float> low(columns, 0), high(columns, 0), means(columns), scales(columns);
   means_.assign(columns, 0);
@@ -104,8 +101,19 @@ void FrameKernel::store_fixed(const MatrixF& matrix) {
   }
 }
 
+FrameKernel::Scratch FrameKernel::scratch() const {
+  Scratch scratch;
+  if (precision_ == FramePrecision::floating) {
+    scratch.floats.resize(columns_, 3);
+  } else {
+    scratch.packed.resize(3 * ((columns_ + 1) / 2));
+    scratch.worth.resize(3 * largest_sums_.size());
+  }
+  return scratch;
+}
+
 /** To 16 bits: coefficient · unit of its column = worth · code. */
-void FrameKernel::scale_coefficients(const Matrix& coefficients) {
+void FrameKernel::scale_coefficients(const Matrix& coefficients, Scratch& scratch) const {
   for (Index axis = 0; axis < 3; ++axis) {
     for (Index c = 0, k = 0; c < columns_; ++k) {
       const Index end = std::min(columns_, c + 2 * chunk);
@@ -119,16 +127,16 @@ void FrameKernel::scale_coefficients(const Matrix& coefficients) {
         const auto code = [&](Index column) {
           return column < end ? static_cast<std::int32_t>(std::lrint(size(column) * scale)) : 0;
         };
-        packed_[c / 2 * 3 + axis] = pack(code(c), code(c + 1));
+        scratch.packed[c / 2 * 3 + axis] = pack(code(c), code(c + 1));
       }
-      worth_[3 * k + axis] = scale > 0 ? static_cast<float>(1 / scale) : 0;
+      scratch.worth[3 * k + axis] = scale > 0 ? static_cast<float>(1 / scale) : 0;
     }
   }
 }
 
-inline void FrameKernel::add_floats(Index tile, std::array<FloatTile, 3>& sums) const {
+inline void FrameKernel::add_floats(Index tile, const Scratch& scratch, std::array<FloatTile, 3>& sums) const {
   const FloatTile* row = floats_.data() + tile * columns_;
-  const float* coefficient = coefficients_.data();
+  const float* coefficient = scratch.floats.data();
   for (Index c = 0; c < columns_; ++c, ++row, coefficient += 3) {
     for (std::size_t q = 0; q < quads; ++q) {
       const Quad numbers = (*row)[q];
@@ -137,11 +145,11 @@ inline void FrameKernel::add_floats(Index tile, std::array<FloatTile, 3>& sums) 
   }
 }
 
-inline void FrameKernel::add_fixed(Index tile, std::array<FloatTile, 3>& sums) const {
+inline void FrameKernel::add_fixed(Index tile, const Scratch& scratch, std::array<FloatTile, 3>& sums) const {
   const Index pairs = (columns_ + 1) / 2;
   const FixedTile* row = fixed_.data() + tile * pairs;
-  const std::int32_t* packed = packed_.data();
-  const float* worth = worth_.data();
+  const std::int32_t* packed = scratch.packed.data();
+  const float* worth = scratch.worth.data();
   for (Index first = 0; first < pairs; first += chunk, worth += 3) {
     std::array<std::array<Sums, quads>, 3> partial{};
     for (const FixedTile* end = row + std::min(chunk, pairs - first); row < end; ++row, packed += 3) {
@@ -156,15 +164,16 @@ inline void FrameKernel::add_fixed(Index tile, std::array<FloatTile, 3>& sums) c
   }
 }
 
-void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, PointsF& displacement) {
+void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, Scratch& scratch,
+                        PointsF& displacement) const {
   const bool fixed = precision_ == FramePrecision::fixed;
   Vector3 shift = translation;
   if (fixed) {
-    scale_coefficients(coefficients);
+    scale_coefficients(coefficients, scratch);
     for (Index c = 0; c < columns_; ++c)
       for (Index axis = 0; axis < 3; ++axis) shift[axis] += means_[c] * coefficients(c, axis);
   } else {
-    coefficients_ = coefficients.cast<float>();
+    scratch.floats = coefficients.cast<float>();
   }
   const Eigen::Matrix3f a = linear.cast<float>();
   const Eigen::Vector3f t = shift.cast<float>();
@@ -178,9 +187,9 @@ void FrameKernel::apply(const Matrix3& linear, const Vector3& translation, const
         sums[axis][q] = a(row, 0) * position[0][q] + a(row, 1) * position[1][q] + a(row, 2) * position[2][q] + t(row);
     }
     if (fixed) {
-      add_fixed(first / lanes, sums);
+      add_fixed(first / lanes, scratch, sums);
     } else {
-      add_floats(first / lanes, sums);
+      add_floats(first / lanes, scratch, sums);
     }
     const Index count = std::min(lanes, vertices_ - first);
     for (Index lane = 0; lane < count; ++lane, out += 3)

@@ -24,11 +24,22 @@ class FrameKernel {
    *  row's sum of them can overflow: the largest keeps 12 bits or more. */
   FrameKernel(const PointsF& positions, const MatrixF& matrix, FramePrecision precision);
 
+  /** The coefficients of one product, in the kernel's own form. Whoever multiplies brings their own, so that the kernel can be shared. */
+  struct Scratch {
+    PointsF floats;
+    std::vector<std::int32_t> packed;  // pairs × 3: two coefficients each
+    std::vector<float> worth;          // chunks × 3: the value of 1 in a chunk's sums
+  };
+
   Index columns() const { return columns_; }
+
+  /** As large as apply() wants it. */
+  Scratch scratch() const;
 
   /** displacement (n×3) = linear·x + translation + M·coefficients (columns × 3). Displacements, not positions: a small one keeps
    * its precision, and none at all leaves the rest shape exact. Allocates nothing. */
-  void apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, PointsF& displacement);
+  void apply(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, Scratch& scratch,
+             PointsF& displacement) const;
 
  private:
   /** The compiler's vector types (GCC's extension, which Clang shares) and not Eigen's: Eigen's packets can only be enabled for the
@@ -42,22 +53,19 @@ class FrameKernel {
 
   void store_floats(const MatrixF& matrix);
   void store_fixed(const MatrixF& matrix);
-  void scale_coefficients(const Matrix& coefficients);
-  void add_floats(Index tile, std::array<FloatTile, 3>& sums) const;
-  void add_fixed(Index tile, std::array<FloatTile, 3>& sums) const;
+  void scale_coefficients(const Matrix& coefficients, Scratch& scratch) const;
+  void add_floats(Index tile, const Scratch& scratch, std::array<FloatTile, 3>& sums) const;
+  void add_fixed(Index tile, const Scratch& scratch, std::array<FloatTile, 3>& sums) const;
 
   FramePrecision precision_;
   Index vertices_, columns_;
   std::vector<FloatTile> positions_;  // 3 per tile: x, y, z
 
   std::vector<FloatTile> floats_;  // columns per tile
-  PointsF coefficients_;
 
   std::vector<FixedTile> fixed_;       // pairs of columns per tile
   std::vector<double> means_, units_;  // of the columns: a number is mean + unit · code
   std::vector<double> largest_sums_;   // of each chunk: the largest Σ |code| of a row
-  std::vector<std::int32_t> packed_;   // pairs × 3: two coefficients each
-  std::vector<float> worth_;           // chunks × 3: the value of 1 in a chunk's sums
 };
 
 }  // namespace handlebody

@@ -7,27 +7,11 @@
 #include <vector>
 
 #include "core/errors/result.hpp"
-#include "core/irbf/basis.hpp"
-#include "core/irbf/body.hpp"
-#include "core/irbf/frame_kernel.hpp"
 #include "core/irbf/handle_constraints.hpp"
 #include "core/irbf/local_global.hpp"
-#include "core/irbf/quality.hpp"
-#include "core/irbf/reduced_system.hpp"
-#include "core/mesh/vertex_normals.hpp"
-#include "core/mesh/weld.hpp"
+#include "core/irbf/prepared_body.hpp"
 
 namespace handlebody {
-
-struct IrbfOptions {
-  /** Radial; its width h in mean center spacings. */
-  Kernel kernel = Kernel::of(KernelKind::inverse_multiquadric, 2, 3);
-  double smoothness = 0;       // λ of eq. (10); 0 chooses it, see sphere_energy.hpp
-  double anchor_weight = 100;  // μ
-  double edge_exponent = -1;   // α of eq. (8)
-  ConstraintKind constraints = ConstraintKind::soft;
-  FramePrecision precision = FramePrecision::fixed;
-};
 
 struct SolveOptions {
   int max_iterations = 100;
@@ -47,9 +31,14 @@ class Irbf {
  public:
   static constexpr Index target_size = HandleConstraints::target_size;
 
-  /** Takes a body (checked here) and evaluates the basis at its spheres and vertices. Fails with BODY_INVALID, INVALID_OPTION,
-   *  OUT_OF_MEMORY, or as Basis::evaluate does. */
+  /** Of a body that is prepared for it. Fails as PreparedBody::create does. */
   static Result<std::unique_ptr<Irbf>> create(Body body, const IrbfOptions& options);
+
+  /** Another deformation of a body, at rest and without handles. */
+  explicit Irbf(std::shared_ptr<const PreparedBody> body);
+
+  /** To be shared with further deformations of the same body. */
+  const std::shared_ptr<const PreparedBody>& prepared() const { return prepared_; }
 
   /** Sets the handles at `points` (k×3, model units); builds and factors the system. On failure the former handles stay. */
   Result<Done> set_handles(const ConstPoints& points, const std::vector<HandleKind>& kinds);
@@ -75,11 +64,11 @@ class Irbf {
    *  where there are none. Fails with MESH_INDEX_OUT_OF_RANGE, OUT_OF_MEMORY, or as Basis::evaluate does. */
   Result<Quality> quality(const Eigen::Ref<const Tetrahedra>& tetrahedra);
 
-  Index vertex_count() const { return body_.positions.rows(); }
-  const Body& body() const { return body_; }
-  const Basis& basis() const { return *basis_; }
+  Index vertex_count() const { return prepared_->body.positions.rows(); }
+  const Body& body() const { return prepared_->body; }
+  const Basis& basis() const { return prepared_->basis; }
   /** λ, as given or as chosen. */
-  double smoothness() const { return smoothness_; }
+  double smoothness() const { return prepared_->smoothness; }
   /** Condition number of the equations for the present handles; 0 before there are any. */
   double condition() const { return system_.condition; }
 
@@ -93,34 +82,17 @@ class Irbf {
     std::vector<double> solved_targets;
   };
 
-  Irbf() = default;
-  Result<Done> prepare_spheres();
-  Result<Done> prepare_vertices();
-  std::unique_ptr<FrameKernel> make_handle_kernel(const ReducedSystem& system) const;
+  std::unique_ptr<const FrameKernel> make_handle_kernel(const ReducedSystem& system) const;
 
-  IrbfOptions options_;
-  Body body_;
-  std::unique_ptr<Basis> basis_;
-  std::unique_ptr<TriangleTree> surface_;  // made when a handle is set at a point
-  double structure_radius_ = 0;            // of a rotation handle's six points
-  double smoothness_ = 0;
-
-  MatrixXd edge_rows_;  // 3B × (4 + C): √w [e 0 Δφ]
-  MatrixXd gram_;       // lower triangle: edge_rowsᵀ edge_rows + λ on the coefficients
-
-  Weld weld_;
-  Triangles welded_triangles_;
-  PointsF stored_;                                                            // as stored, model units
-  PointsF rest_, displacement_, deformed_, rest_normals_, deformed_normals_;  // welded, solver space
-  std::unique_ptr<FrameKernel> frame_kernel_;                                 // Ψ, times the coefficients of the centers
-  MatrixF psi_;                                                               // kept where the other product may be the smaller one
-  std::unique_ptr<FrameKernel> handle_kernel_;  // [x 1 Ψ] Z†, times the right-hand side of spheres and handles
-  ColumnRanges surface_ranges_;                 // of the basis functions over the vertices
-  std::unique_ptr<VoxelQuality> voxel_quality_;
+  std::shared_ptr<const PreparedBody> prepared_;
+  PointsF displacement_, deformed_, deformed_normals_;  // welded, solver space
+  FrameKernel::Scratch frame_;
+  std::unique_ptr<const FrameKernel> handle_kernel_;  // [x 1 Ψ] Z†, times the right-hand side of spheres and handles
+  FrameKernel::Scratch handle_frame_;
 
   HandleConstraints constraints_;
   ReducedSystem system_;
-  std::unique_ptr<LocalGlobal> local_global_;
+  LocalGlobal local_global_;
   std::vector<double> targets_;
   Workspace work_;
 

@@ -82,7 +82,7 @@ Error too_large(Index voxels, double bytes) {
 
 }  // namespace
 
-Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
+Result<std::unique_ptr<const VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
   const VoxelDomain& domain = body.domain;
   const Grid& grid = domain.grid();
   // Bytes of the grid's corner numbers; per voxel, six tetrahedra and at most eight corners of its own.
@@ -130,20 +130,21 @@ Result<std::unique_ptr<VoxelQuality>> VoxelQuality::create(const Body& body, con
     }
   }
   quality->maximum_principle_ = worst;
-  quality->deformed_.resize(samples.size(), 3);
-  return quality;
+  return std::unique_ptr<const VoxelQuality>(std::move(quality));
 }
 
-Quality VoxelQuality::measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal) {
+Quality VoxelQuality::measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients,
+                              double diagonal) const {
   const MatrixXd columns = coefficients;
+  Points deformed(rest_.rows(), 3);
   for (Index first = 0; first < rest_.rows(); first += corners_at_once) {
     const Index some = std::min(corners_at_once, rest_.rows() - first);
-    auto moved = deformed_.middleRows(first, some);
+    auto moved = deformed.middleRows(first, some);
     moved = rest_.middleRows(first, some) * (Matrix3::Identity() + linear).transpose();
     moved.rowwise() += translation.transpose();
     moved += product(psi_.middleRows(first, some).cast<double>(), columns);
   }
-  Quality quality = measure_tetrahedra(tetrahedra_, rest_, deformed_);
+  Quality quality = measure_tetrahedra(tetrahedra_, rest_, deformed);
   const double cube = diagonal * diagonal * diagonal;
   quality.total_distortion *= cube;
   quality.max_distortion *= cube;

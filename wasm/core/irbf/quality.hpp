@@ -36,16 +36,16 @@ struct ColumnRanges {
 class VoxelQuality {
  public:
   /** Fails with OUT_OF_MEMORY or as the basis does. */
-  static Result<std::unique_ptr<VoxelQuality>> create(const Body& body, const Basis& basis, const ColumnRanges& on_surface);
+  static Result<std::unique_ptr<const VoxelQuality>> create(const Body& body, const Basis& basis, const ColumnRanges& on_surface);
 
   /** For the displacement linear·x + translation + Ψ·coefficients, solver space. */
-  Quality measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal);
+  Quality measure(const Matrix3& linear, const Vector3& translation, const Matrix& coefficients, double diagonal) const;
 
  private:
   VoxelQuality() = default;
 
   Tetrahedra tetrahedra_;
-  Points rest_, deformed_;
+  Points rest_;
   MatrixF psi_;
   double maximum_principle_ = 0;
 };
