@@ -27,6 +27,16 @@ const vertex = (page: Page, v: number): Promise<Place> =>
 const handle = (page: Page, i: number) => page.locator('handle-body [part=handle]').nth(i);
 const apart = (a: readonly number[], b: readonly number[]) => Math.hypot(...a.map((x, k) => x - (b[k] as number)));
 
+function watchShifts(): void {
+  const shifts: number[] = [];
+  Object.assign(globalThis, { shifts });
+  new PerformanceObserver((list) => {
+    for (const entry of list.getEntries()) shifts.push((entry as PerformanceEntry & { value: number }).value);
+  }).observe({ type: 'layout-shift', buffered: true });
+}
+
+const shiftsOf = (page: Page) => page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts);
+
 /** Until the shape has been the same for a few frames. */
 async function still(page: Page, v: number): Promise<Place> {
   let [before, now] = [[] as readonly number[], await vertex(page, v)];
@@ -70,17 +80,9 @@ describe('one tag, with a script from another origin', () => {
   });
 
   it('shifts nothing when it comes, and axe finds nothing, light and dark', async () => {
-    const { page } = await tagPage(browser, dog('controls'), {
-      before: () => {
-        const shifts: number[] = [];
-        Object.assign(globalThis, { shifts });
-        new PerformanceObserver((list) => {
-          for (const entry of list.getEntries()) shifts.push((entry as PerformanceEntry & { value: number }).value);
-        }).observe({ type: 'layout-shift', buffered: true });
-      },
-    });
+    const { page } = await tagPage(browser, dog('controls'), { before: watchShifts });
     await loaded(page);
-    expect(await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts)).toEqual([]);
+    expect(await shiftsOf(page)).toEqual([]);
     expect(await violations(page)).toEqual([]);
     // Dark where the page is, not where only the reader's other pages would be.
     const paper = () => page.locator('handle-body .message').evaluate((element) => getComputedStyle(element).color);
@@ -92,6 +94,18 @@ describe('one tag, with a script from another origin', () => {
     });
     expect(await paper()).not.toBe(light);
     expect(await violations(page)).toEqual([]);
+  });
+
+  it('is lit as the page is, which says so by a class of its root', async () => {
+    const { page } = await tagPage(browser, `<style>.dark { color-scheme: dark }</style>${dog()}`);
+    await loaded(page);
+    await still(page, PAW);
+    const picture = () => page.locator('handle-body [part=canvas]').evaluate((canvas) => (canvas as HTMLCanvasElement).toDataURL());
+    const light = await picture();
+    await page.evaluate(() => document.documentElement.classList.add('dark'));
+    await soon(picture).not.toBe(light);
+    await page.evaluate(() => document.documentElement.classList.remove('dark'));
+    await soon(picture).toBe(light);
   });
 
   it('bakes a model that was never baked in a worker, and says how far it is', async () => {
@@ -350,6 +364,28 @@ describe('<handle-figure>', () => {
     });
     expect(boxes.controls.top).toBeGreaterThanOrEqual(boxes.stage.bottom);
     expect(boxes.stage.right).toBeLessThanOrEqual(boxes.stage.left + boxes.width + 1);
+  });
+
+  it('shifts nothing where its height is reserved, and keeps its height when it is given back', async () => {
+    const tag =
+      '<handle-figure name="course-20" controls caption style="display: block; width: 50rem; min-height: 120rem"></handle-figure>';
+    const { page } = await tagPage(browser, tag, { viewport: { width: 1000, height: 1000 }, before: watchShifts });
+    await loaded(page, 'handle-figure');
+    expect(await shiftsOf(page)).toEqual([]);
+    await page.clock.install();
+    await page.evaluate(() => {
+      const other = Object.assign(document.createElement('handle-figure'), { name: 'skinning-1' });
+      document.querySelector('handle-figure')?.replaceWith(other);
+    });
+    await loaded(page, 'handle-figure');
+    const height = () => figure(page, 'skinning-1').evaluate((element) => element.clientHeight);
+    const before = await height();
+    expect(before).toBeGreaterThan(100);
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    await frames(page, 6);
+    await page.clock.fastForward(11_000);
+    expect(await page.evaluate(() => (document.querySelector('handle-figure') as unknown as Figure).loaded)).toBe(false);
+    expect(await height()).toBeCloseTo(before, -1);
   });
 
   it('says so where there is no such figure, and which there are', async () => {

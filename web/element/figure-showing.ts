@@ -49,7 +49,7 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
     known = state;
   };
   const live = new Live(figure, { solvers: { runtime, whole }, state: options.state, onChange: change });
-  const frame = h('div', { class: 'figure-frame' }, live.element);
+  const frame = h('div', { class: 'figure-frame', 'data-coming': '' }, live.element);
   stage.replaceChildren(frame);
   options.onFirst();
   await new Promise<void>((resolve) => {
@@ -61,6 +61,8 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
     watcher.observe(live.element, { attributeFilter: ['data-state'] });
     signal.addEventListener('abort', end, { once: true });
   });
+  delete frame.dataset.coming;
+  stage.style.minHeight = '';
   return {
     get state() {
       return live.state;
@@ -73,6 +75,8 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
     },
     see: (seen) => live.sleep(!seen),
     dispose: () => {
+      // What was above the window keeps its height when it is given back: the page does not jump.
+      if (frame.isConnected) stage.style.minHeight = `${frame.offsetHeight}px`;
       live.dispose();
       frame.remove();
     },

@@ -11,7 +11,7 @@ export function isDark(element: Element): boolean {
 
 /**
  * Calls `changed` when a picture has to be laid out anew: its element has another size, the window is on a screen with other pixels, the
- * reader's colors are others. Until the signal, or as long as the page. Not for paper, where no script draws in time: there style sheets keep
+ * reader's colors are others, or the page's by an attribute of its root (as the themes of docs pages have it). Until the signal, or as long as the page. Not for paper, where no script draws in time: there style sheets keep
  * the shape of a picture, and what lies on it is placed in parts of it.
  */
 export function onScreenChange(element: Element, changed: () => void, signal = new AbortController().signal): void {
@@ -23,6 +23,14 @@ export function onScreenChange(element: Element, changed: () => void, signal = n
   sizes.observe(element);
   signal.addEventListener('abort', () => sizes.disconnect());
   for (const media of COLORS) matchMedia(media).addEventListener('change', tell, { signal });
+  let dark = isDark(element);
+  const theme = new MutationObserver(() => {
+    const now = isDark(element);
+    if (now !== dark) tell();
+    dark = now;
+  });
+  for (const root of [document.documentElement, document.body]) theme.observe(root, { attributes: true });
+  signal.addEventListener('abort', () => theme.disconnect());
   const watchPixels = () => {
     const pixels = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
     const next = () => {
