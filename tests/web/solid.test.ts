@@ -177,13 +177,33 @@ describe('what is chosen', () => {
   });
 
   it('is no method where no worker comes at first; another try brings the weights', async () => {
-    const { page } = await open('', { missing: '**/weigh-worker-*.js', state: 'failed' });
+    const { page } = await open('', { missing: '**/{weigh,blob}-worker*.js', state: 'failed' });
     await soon(() => page.locator('.figure .trouble').textContent()).toMatch(/computes weights could not be fetched\./);
     expect(await checked(page)).toEqual([]);
     await page.unrouteAll();
     await page.getByRole('button', { name: 'Try again' }).click();
     await soon(volume(page)).toBeCloseTo(1, 6);
     expect((await checked(page))[0]).toBe('Biharmonic');
+  });
+
+  it('is computed in a worker made of text where that of its own file does not start', async () => {
+    const { page } = await open('', {
+      missing: '**/weigh-worker-*.js',
+      before: () => {
+        const started: string[] = [];
+        const Original = globalThis.Worker;
+        globalThis.Worker = class extends Original {
+          constructor(address: string | URL, options?: WorkerOptions) {
+            super(address, options);
+            started.push(new URL(address).protocol);
+          }
+        };
+        Object.assign(globalThis, { started });
+      },
+    });
+    expect(await volume(page)()).toBeCloseTo(1, 6);
+    expect(await page.locator('.figure .trouble:visible').count()).toBe(0);
+    expect(await page.evaluate(() => (globalThis as unknown as { started: string[] }).started)).toEqual(['http:', 'blob:']);
   });
 
   it('is computed by the page, which says so, where no worker may start', async () => {

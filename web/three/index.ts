@@ -3,6 +3,7 @@ export type { FileErrorCode, FileErrorCodes } from '../assets/error-codes.ts';
 export type { PoseSpaceData, StoredPoseSpace } from '../assets/pose-space-schema.ts';
 export type { Matrix } from '../assets/transform.ts';
 export { DRAGGABLE_DEFAULTS, Draggable, type DraggableHandle, type DraggableOptions, draggable } from './draggable.ts';
+export { embeddedTextures } from './embedded-textures.ts';
 export { DeformedGeometry, meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
 export { HandleOverlay, type HandleOverlayOptions, type HandlePoint } from './handles.ts';
 export {

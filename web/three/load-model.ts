@@ -3,6 +3,7 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb } from '../assets/check-glb.ts';
+import { embeddedTextures } from './embedded-textures.ts';
 import { handlebodyData, handlebodyPlugin, type LoadedPoseSpace } from './loader.ts';
 
 /** What a GLB brings: an object, and maybe what was baked into it. */
@@ -15,8 +16,7 @@ export interface LoadedModel {
 /** Checks a GLB and makes three.js objects of it. */
 export async function loadModel(buffer: ArrayBuffer): Promise<LoadedModel> {
   checkGlb(new Uint8Array(buffer));
-  const loader = new GLTFLoader();
-  loader.register(handlebodyPlugin);
+  const loader = embeddedTextures(new GLTFLoader()).register(handlebodyPlugin);
   try {
     const gltf = await loader.parseAsync(buffer, '');
     const { body, poseSpaces } = handlebodyData(gltf);

@@ -19,7 +19,7 @@ export interface InWorkerOptions {
 }
 
 /** A worker whose script is text, and the compiled solver that it is sent. */
-interface BlobScript {
+export interface BlobScript {
   readonly script: string;
   readonly wasm: WebAssembly.Module;
 }

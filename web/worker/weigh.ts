@@ -44,3 +44,9 @@ export async function weigh(
     weights.dispose();
   }
 }
+
+/** The weights as they are sent, which hands them over. */
+export async function weighed(question: WeightsQuestion, listener: { onProgress(part: number): void }, hb: Handlebody) {
+  const answer = await weigh(hb, question, listener);
+  return { answer, transfer: [answer.weights] };
+}
