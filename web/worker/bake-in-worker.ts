@@ -1,6 +1,7 @@
 import type { BakeOptions, BakeShape, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import type { BakeAnswer, BakeQuestion, PostedBakeOptions } from './answer.ts';
 import { type InWorkerOptions, inWorker } from './in-worker.ts';
+import { scriptText } from './script-text.ts';
 
 /** `worker`: its script must import "handlebody/bake-worker" or be that file. */
 export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 'worker' | 'onFallback'> {}
@@ -25,7 +26,7 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
     ...options,
     worker,
     // Who gives a worker wants that one.
-    blob: options.worker ? undefined : blobScript,
+    text: options.worker ? undefined : scriptText,
     ask: () => copied(shape, posted),
     here: async () => {
       // Loaded only now: a page whose worker starts never needs the solver for this.
@@ -39,14 +40,6 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
 /** Written as bundlers look for it. The name ends in .js for the published files; Vite finds the .ts beside it in the sources. */
 function defaultWorker(): Worker {
   return new Worker(new URL('./bake-worker.js', import.meta.url), { type: 'module', name: 'handlebody-bake' });
-}
-
-async function blobScript() {
-  const [{ BLOB_WORKER }, { moduleInside }] = await Promise.all([
-    import('./blob-worker.generated.ts'),
-    import('../../wasm/ts/index.ts'),
-  ]);
-  return { script: BLOB_WORKER, wasm: await moduleInside() };
 }
 
 /** Copies that travel without being copied again. */

@@ -44,3 +44,9 @@ export async function weigh(
     weights.dispose();
   }
 }
+
+/** The same as a worker gives it: with what is handed over. */
+export async function weighAnswer(...asked: Parameters<typeof weigh>) {
+  const answer = await weigh(...asked);
+  return { answer, transfer: [answer.weights] };
+}
