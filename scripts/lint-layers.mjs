@@ -53,7 +53,7 @@ export const LAYERS = {
   'web/figures/skinning': { may: KIT, packages: ['three'], apart: true },
   'web/figures': { may: ['web/figures/kit', 'web/figures/course', 'web/figures/irbf', 'web/figures/skinning'] },
   'web/element': { may: [...KIT, 'web/figures'], packages: ['three', GLTF] },
-  'web/cli': { may: BASE, packages: [GLTF, 'node:'] },
+  'web/cli': { may: [...BASE, 'web/figures'], packages: [GLTF, 'node:'] },
   'web/studio': { may: [...BASE, 'web/ui', 'web/stage', 'web/element'], packages: ['three', GLTF] },
   'web/embed': { may: ['web/ui', 'web/element'] },
   'web/learn': {

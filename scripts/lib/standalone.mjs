@@ -21,6 +21,8 @@ export async function buildStandalone(folder, { embed = false } = {}) {
       emptyOutDir: false,
       target: 'es2022',
       modulePreload: false,
+      // Which file asks for which: `handlebody embed` takes only those that a page needs.
+      manifest: 'standalone/manifest.json',
       chunkSizeWarningLimit: 1000,
       rolldownOptions: {
         input: { 'handlebody.standalone': at('web/element/index.ts'), ...(embed && { embed: at('web/embed/main.ts') }) },

@@ -52,13 +52,16 @@ export function theFile(command: string, words: readonly string[], what: string)
 }
 
 /** The output, which has to be asked for, and not by the name of a format that is not written. */
-export function theOutput(command: string, values: Values): string {
+export function theOutput(command: string, values: Values, format: 'glb' | 'html' = 'glb'): string {
   const output = values.output;
   if (typeof output !== 'string' || output === '') {
-    throw usageError(`"handlebody ${command}" needs to know where to write.`, 'Add -o and the name of a .glb file.');
+    throw usageError(`"handlebody ${command}" needs to know where to write.`, `Add -o and the name of a .${format} file.`);
   }
-  const other = /\.(obj|ply|gltf|stl|fbx|usdz|json)$/i.exec(output);
-  if (other) throw usageError(`"${output}" would not be what its name says: GLB is written.`, 'Let its name end in .glb.');
+  const [, other] = /\.(obj|ply|glb|gltf|stl|fbx|usdz|json|html)$/i.exec(output) ?? [];
+  if (other && other.toLowerCase() !== format) {
+    const written = format.toUpperCase();
+    throw usageError(`"${output}" would not be what its name says: ${written} is written.`, `Let its name end in .${format}.`);
+  }
   return output;
 }
 

@@ -3,10 +3,11 @@ import { type Options, parseCommandLine, usageError } from './arguments.ts';
 import { BAKE_OPTIONS, bakeCommand } from './bake.ts';
 import { Clock } from './clock.ts';
 import { DEFORM_OPTIONS, deformCommand } from './deform.ts';
+import { EMBED_OPTIONS, embedCommand } from './embed.ts';
 import { EXIT } from './exit-codes.ts';
 import { HELP } from './help.ts';
 import { inspectCommand } from './inspect.ts';
-import { packageVersion } from './model.ts';
+import { packageVersion } from './package.ts';
 import { POSE_OPTIONS, poseCommand } from './pose.ts';
 import { Report } from './report.ts';
 import type { Run } from './run.ts';
@@ -15,6 +16,7 @@ const COMMANDS = new Map<string, { options: Options; run: (run: Run) => Promise<
   ['bake', { options: BAKE_OPTIONS, run: bakeCommand }],
   ['deform', { options: DEFORM_OPTIONS, run: deformCommand }],
   ['pose', { options: POSE_OPTIONS, run: poseCommand }],
+  ['embed', { options: EMBED_OPTIONS, run: embedCommand }],
   ['inspect', { options: {}, run: inspectCommand }],
 ]);
 

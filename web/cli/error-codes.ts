@@ -8,6 +8,8 @@ interface CommandErrorCodes {
   'body-missing': true;
   /** A model without a pose space. */
   'pose-space-missing': true;
+  /** No figure of that name. */
+  'unknown-figure': true;
   /** HANDLES.json says something unknown, or not all that it has to. */
   'handles-invalid': true;
 }

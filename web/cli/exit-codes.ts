@@ -24,6 +24,7 @@ const BY_CODE: Partial<Record<ErrorCode, number>> = {
   'wasm-trapped': EXIT.internal,
   usage: EXIT.usage,
   'invalid-option': EXIT.usage,
+  'unknown-figure': EXIT.usage,
   'body-invalid': EXIT.input,
   'body-version': EXIT.input,
   'output-unwritable': EXIT.output,

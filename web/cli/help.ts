@@ -27,6 +27,7 @@ export const HELP: Record<string, string> = {
   handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb [--json]
   handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb [--json]
   handlebody inspect FILE [--json]
+  handlebody embed NAME|BODY.glb|FACE.glb -o FILE.html [--state STATE] [--title TEXT] [--json]
 
   handlebody COMMAND --help tells more of each; --version prints the version.
 
@@ -81,6 +82,21 @@ ${WRITING}
 ${COMMON}
 
 With --json, "weights" are those of the examples and "targets" those of the morph targets.
+
+${EXIT_CODES}`,
+
+  embed: `Writes one live figure, or one model with its element, as a single page that works from the disk, with no network.
+
+  handlebody embed NAME -o FILE.html          a figure: course-12, or course-12#v1&narrow with its state
+  handlebody embed BODY.glb -o FILE.html      a model to drag; one that is not baked is baked by the page, each time it opens
+  handlebody embed FACE.glb -o FILE.html      a model with a pose space, which its plane and sliders move
+
+  --state STATE        the figure's, as its link has it behind the name: v1&narrow
+  --title TEXT         the page's, and a model's description (the figure's own title, or the model's file name)
+${WRITING}
+${COMMON}
+
+A figure is named as in the site's embed.html. The page holds the program, the solver and the model; their licenses are at its end.
 
 ${EXIT_CODES}`,
 

@@ -1,7 +1,5 @@
 /** Models of any format that the command reads, as glTF documents, and how they are written. */
-import { readFileSync } from 'node:fs';
 import path from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { Document, type Extension } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
@@ -31,16 +29,16 @@ function formatOf(bytes: Uint8Array, name: string): ModelFormat {
   return /\.obj$/i.test(name) ? 'OBJ' : /\.ply$/i.test(name) ? 'PLY' : 'GLB';
 }
 
-/** Reads a model; what it has that will not be written again is warned of. Throws 'file-*' errors that name the file. */
-export async function readModel(bytes: Uint8Array, name: string, report: Report): Promise<Model> {
+/** Reads a model; `report`, where it will be written again, is warned of what will be lost. Throws 'file-*' errors that name the file. */
+export async function readModel(bytes: Uint8Array, name: string, report?: Report): Promise<Model> {
   const format = formatOf(bytes, name);
   try {
     if (format !== 'GLB') {
       const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
-      for (const message of mesh.warnings) report.warn({ code: 'left-out', message });
+      for (const message of mesh.warnings) report?.warn({ code: 'left-out', message });
       return { document: documentOf(mesh, path.basename(name, path.extname(name))), format };
     }
-    warnOfLost(bytes, report);
+    if (report) warnOfLost(bytes, report);
     const document = await readGlb(bytes, { extensions: EXTENSIONS });
     joinBuffers(document);
     return { document, format };
@@ -103,15 +101,4 @@ function documentOf(file: FileMesh, name: string): Document {
   const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
   document.getRoot().setDefaultScene(document.createScene().addChild(node));
   return document;
-}
-
-/** The version of the package that this file is part of. */
-export function packageVersion(): string {
-  for (let folder = path.dirname(fileURLToPath(import.meta.url)); ; folder = path.dirname(folder)) {
-    try {
-      const { name, version } = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
-      if (name === 'handlebody') return version;
-    } catch {}
-    if (folder === path.dirname(folder)) return 'unknown';
-  }
 }

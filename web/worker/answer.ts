@@ -12,8 +12,8 @@ interface Listener {
   onWarning(warning: BakeWarning): void;
 }
 
-/** An answer, and what of it is handed over instead of copied. */
-interface Made<Answer> {
+/** An answer, and those of its arrays that are handed over instead of copied. */
+interface Answered<Answer> {
   readonly answer: Answer;
   readonly transfer: readonly ArrayBufferView[];
 }
@@ -24,7 +24,7 @@ interface Made<Answer> {
  */
 export function answer<Question, Answer>(
   port: WorkPort,
-  work: (question: Question, listener: Listener, wasm: WebAssembly.Module | undefined) => Promise<Made<Answer>>,
+  work: (question: Question, listener: Listener, wasm: WebAssembly.Module | undefined) => Promise<Answered<Answer>>,
 ): void {
   const reply = (message: WorkReply<Answer>, transfer: Transferable[] = []) => port.postMessage(message, transfer);
   const listener: Listener = {
@@ -54,19 +54,21 @@ export interface BakeQuestion {
 /** A mesh that was baked stays behind: the page has it. That of another shape comes along. */
 export type BakeAnswer = Omit<BodyData, 'mesh'> & Partial<Pick<BodyData, 'mesh'>>;
 
-type Bake = (shape: BakeShape, options: BakeOptions) => Promise<BodyData>;
-
-/** Answers with what `bake` gives. */
-export function answerBake(port: WorkPort, bake: Bake): void {
-  answer<BakeQuestion, BakeAnswer>(port, (question, listener) => baked(question, listener, bake));
-}
-
-/** What `bake` gives, as it is sent. */
-export async function baked({ shape, options }: BakeQuestion, listener: Listener, bake: Bake): Promise<Made<BakeAnswer>> {
+/** The answer that `bake` gives to a question, and what of it is handed over. */
+export async function bakeAnswer(
+  { shape, options }: BakeQuestion,
+  listener: Listener,
+  bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>,
+): Promise<Answered<BakeAnswer>> {
   const { mesh, ...body } = await bake(shape, { ...options, ...listener });
   const made = 'triangles' in shape ? undefined : mesh;
   return {
     answer: made ? { ...body, mesh: made } : body,
     transfer: [body.voxels, body.centers, body.distances, body.spheres, ...(made ? [made.positions, made.triangles] : [])],
   };
+}
+
+/** Answers with what `bake` gives. */
+export function answerBake(port: WorkPort, bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>): void {
+  answer<BakeQuestion, BakeAnswer>(port, (question, listener) => bakeAnswer(question, listener, bake));
 }

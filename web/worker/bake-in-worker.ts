@@ -1,7 +1,7 @@
 import type { BakeOptions, BakeShape, BodyData, Mesh } from '../../wasm/ts/types.ts';
 import type { BakeAnswer, BakeQuestion, PostedBakeOptions } from './answer.ts';
-import { blobScript } from './blob-script.ts';
 import { type InWorkerOptions, inWorker } from './in-worker.ts';
+import { scriptText } from './script-text.ts';
 
 /** `worker`: its script must import "handlebody/bake-worker" or be that file. */
 export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 'worker' | 'onFallback'> {}
@@ -26,7 +26,7 @@ export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOption
     ...options,
     worker,
     // Who gives a worker wants that one.
-    blob: options.worker ? undefined : blobScript,
+    text: options.worker ? undefined : scriptText,
     ask: () => copied(shape, posted),
     here: async () => {
       // Loaded only now: a page whose worker starts never needs the solver for this.

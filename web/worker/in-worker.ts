@@ -19,7 +19,7 @@ export interface InWorkerOptions {
 }
 
 /** A worker whose script is text, and the compiled solver that it is sent. */
-export interface BlobScript {
+export interface ScriptText {
   readonly script: string;
   readonly wasm: WebAssembly.Module;
 }
@@ -27,7 +27,7 @@ export interface BlobScript {
 interface Work<Answer> extends InWorkerOptions {
   readonly worker: () => Worker;
   /** Instead, where that does not start: bundlers know no file for it, or it is of another origin. */
-  readonly blob?: (() => Promise<BlobScript>) | undefined;
+  readonly text?: (() => Promise<ScriptText>) | undefined;
   /** What is asked, and what of it is handed over instead of copied. */
   readonly ask: () => readonly [question: unknown, transfer: Transferable[]];
   /** The same work on this thread. */
@@ -39,9 +39,8 @@ export async function inWorker<Answer>(work: Work<Answer>): Promise<Answer> {
   throwIfAborted(work.signal);
   const first = await attempt(work, work.worker);
   if ('answer' in first) return first.answer;
-  // Frames without an origin have no address for a blob in all browsers, and Node has no workers of this kind.
-  const hasBlobs = typeof Worker === 'function' && globalThis.origin !== 'null';
-  const second = hasBlobs && work.blob ? await attemptBlob(work, work.blob) : first;
+  // Node has no workers of this kind.
+  const second = typeof Worker === 'function' && work.text ? await attemptText(work, work.text) : first;
   if ('answer' in second) return second.answer;
   throwIfAborted(work.signal);
   work.onFallback?.(first.notStarted);
@@ -60,20 +59,24 @@ async function attempt<Answer>(work: Work<Answer>, make: () => Worker, wasm?: We
   return converse(worker, work, wasm);
 }
 
-async function attemptBlob<Answer>(work: Work<Answer>, blob: () => Promise<BlobScript>): Promise<Outcome<Answer>> {
-  let given: BlobScript;
+async function attemptText<Answer>(work: Work<Answer>, text: () => Promise<ScriptText>): Promise<Outcome<Answer>> {
+  let given: ScriptText;
   try {
-    given = await blob();
+    given = await text();
   } catch (reason) {
     // The part of the library that has it did not come either.
     return { notStarted: reason };
   }
   const { script, wasm } = given;
-  const address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
+  // Where the page has no origin (a file of the disk, a sandboxed frame) no module comes from a blob, but one comes from an address that holds it.
+  const whole = globalThis.origin === 'null';
+  const address = whole
+    ? `data:text/javascript;charset=utf-8,${encodeURIComponent(script)}`
+    : URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   try {
     return await attempt(work, () => new Worker(address, { type: 'module', name: 'handlebody' }), wasm);
   } finally {
-    URL.revokeObjectURL(address);
+    if (!whole) URL.revokeObjectURL(address);
   }
 }
 

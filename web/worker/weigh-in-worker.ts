@@ -1,12 +1,12 @@
-import { blobScript } from './blob-script.ts';
 import { type InWorkerOptions, inWorker } from './in-worker.ts';
+import { scriptText } from './script-text.ts';
 import type { SolidWeights, WeightsQuestion } from './weigh.ts';
 
 /**
  * Skinning weights of a solid, computed on another thread, so that the page stays smooth: its surface is filled with tetrahedra, and the
  * weights are those of Jacobson and others' "Bounded biharmonic weights" (2011) and its relatives, at the surface's vertices. An aborted
- * signal ends the worker at once. Where no worker starts from its file, one starts from text, as for a bake; without workers the page's own
- * thread does it.
+ * signal ends the worker at once. Where no worker starts from a file, one starts from a text that the library carries; without workers the
+ * page's own thread does it.
  *
  * Throws what `tetrahedralize`, `biharmonicWeights` and `bound` throw, 'aborted' included, as `HandlebodyError`.
  */
@@ -14,8 +14,7 @@ export function weighInWorker(question: WeightsQuestion, options: Omit<InWorkerO
   return inWorker<SolidWeights>({
     ...options,
     worker: options.worker ?? defaultWorker,
-    // Who gives a worker wants that one.
-    blob: options.worker ? undefined : blobScript,
+    text: options.worker ? undefined : scriptText,
     ask: () => [question, []],
     here: async () => {
       const [{ load }, { weigh }] = await Promise.all([import('../../wasm/ts/index.ts'), import('./weigh.ts')]);

@@ -45,8 +45,8 @@ export async function weigh(
   }
 }
 
-/** The weights as they are sent, which hands them over. */
-export async function weighed(question: WeightsQuestion, listener: { onProgress(part: number): void }, hb: Handlebody) {
-  const answer = await weigh(hb, question, listener);
+/** The same as a worker gives it: with what is handed over. */
+export async function weighAnswer(...asked: Parameters<typeof weigh>) {
+  const answer = await weigh(...asked);
   return { answer, transfer: [answer.weights] };
 }
