@@ -31,6 +31,10 @@ export class HostKernels {
     this.#kernels.delete(id);
   }
 
+  clear(): void {
+    this.#kernels.clear();
+  }
+
   /** What the solver calls: never throws. */
   readonly call = (id: number, derivative: number, s: number): number => {
     const kernel = this.#kernels.get(id);

@@ -244,7 +244,7 @@ export class Irbf {
     if (this.#irbf === 0) return;
     const irbf = this.#irbf;
     this.#irbf = 0;
-    this.#heap.call((e) => e.hb_irbf_free(irbf));
+    this.#heap.release((e) => e.hb_irbf_free(irbf));
     for (const pointer of [this.#positions, this.#normals, this.#restNormals, this.#report]) this.#heap.free(pointer);
     this.#heap.kernels.remove(this.#hostKernel);
   }
