@@ -87,6 +87,11 @@ export class Irbf {
     this.#report = heap.alloc(LAYOUT.hb_irbf_report.sizeof);
   }
 
+  /** What was baked. */
+  get body(): BodyData {
+    return this.#body;
+  }
+
   /** Vertices of the mesh, as stored. */
   get vertexCount(): number {
     return this.#body.mesh.positions.length / 3;
