@@ -74,7 +74,7 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeO
     await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), { ...options, onProgress });
     return readBody(heap, handle, mesh, distance);
   } finally {
-    heap.call((e) => e.hb_bake_free(handle));
+    heap.release((e) => e.hb_bake_free(handle));
   }
 }
 

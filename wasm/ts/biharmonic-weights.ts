@@ -215,7 +215,7 @@ export class BiharmonicWeights {
     const object = this.#object;
     if (object === 0) return;
     this.#object = 0;
-    this.#heap.call((e) => e.hb_skinning_weights_free(object));
+    this.#heap.release((e) => e.hb_skinning_weights_free(object));
   }
 
   [Symbol.dispose](): void {

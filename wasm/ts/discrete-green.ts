@@ -118,7 +118,7 @@ export class DiscreteGreen {
     if (handle === 0) return;
     this.#handle = 0;
     this.#matrices.clear();
-    this.#heap.call((e) => e.hb_discrete_green_free(handle));
+    this.#heap.release((e) => e.hb_discrete_green_free(handle));
   }
 
   [Symbol.dispose](): void {
@@ -126,7 +126,7 @@ export class DiscreteGreen {
   }
 
   #alive(): number {
-    if (this.#handle !== 0) return this.#handle;
+    if (this.#handle !== 0 && !this.#heap.disposed) return this.#handle;
     throw new HandlebodyError('disposed', {
       message: 'This grid was disposed of and cannot be used any more.',
       remedy: 'Make a new one with discreteGreen(options).',

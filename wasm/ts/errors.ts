@@ -8,7 +8,7 @@ export type { CulpritKind, SolverErrorCode } from './abi.generated.ts';
  * `new HandlebodyError('file-nto-glb', …)` does not compile.
  */
 export interface ErrorCodes extends Record<SolverErrorCode, true> {
-  /** The object was used after dispose(). */
+  /** The object, or the solver that made it, was used after dispose(). */
   disposed: true;
   /** The caller's AbortSignal fired. */
   aborted: true;

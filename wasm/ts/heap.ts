@@ -12,7 +12,8 @@ type NumberArray = ArrayLike<number> & { readonly length: number };
 export class Heap<E extends RuntimeExports = RuntimeExports> {
   /** Callers' kernels, which the solver calls back. */
   readonly kernels: HostKernels;
-  readonly #exports: E;
+  /** None after `dispose()`: what a wasm instance holds is collected once nothing refers to its functions. */
+  #exports: E | undefined;
   #trapped: unknown;
   #running = false;
 
@@ -23,20 +24,31 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
 
   /** The instance's memory in bytes, now. */
   get byteLength(): number {
-    return this.#exports.memory.buffer.byteLength;
+    return this.#exports?.memory.buffer.byteLength ?? 0;
+  }
+
+  /** Whether `dispose()` was called. */
+  get disposed(): boolean {
+    return this.#exports === undefined;
+  }
+
+  /** Ends the instance and lets go of its memory. Everything that needs it throws 'disposed' from then on. */
+  dispose(): void {
+    this.#exports = undefined;
+    this.kernels.clear();
   }
 
   f64(pointer: number, length: number): Float64Array {
-    return new Float64Array(this.#exports.memory.buffer, pointer >>> 0, length);
+    return new Float64Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
   f32(pointer: number, length: number): Float32Array {
-    return new Float32Array(this.#exports.memory.buffer, pointer >>> 0, length);
+    return new Float32Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
   u32(pointer: number, length: number): Uint32Array {
-    return new Uint32Array(this.#exports.memory.buffer, pointer >>> 0, length);
+    return new Uint32Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
   u16(pointer: number, length: number): Uint16Array {
-    return new Uint16Array(this.#exports.memory.buffer, pointer >>> 0, length);
+    return new Uint16Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
 
   /** Reserves `bytes` of zeroed memory, 16-byte aligned. Throws 'out-of-memory' when there is none. */
@@ -48,16 +60,22 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
         remedy: 'Use a smaller model, fewer centers or a coarser resolution, or dispose of objects that are no longer used.',
       });
     }
-    new Uint8Array(this.#exports.memory.buffer, pointer, bytes).fill(0);
+    new Uint8Array(this.#alive().memory.buffer, pointer, bytes).fill(0);
     return pointer;
   }
 
   free(pointer: number): void {
-    if (pointer !== 0 && this.#trapped === undefined) this.#exports.hb_release(pointer);
+    if (pointer !== 0 && this.#trapped === undefined) this.#exports?.hb_release(pointer);
+  }
+
+  /** Calls what frees an object; with the instance, its objects are gone already. */
+  release(run: (exports: E) => void): void {
+    if (!this.disposed) this.call(run);
   }
 
   /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
   call<T>(run: (exports: E) => T): T {
+    const exports = this.#alive();
     if (this.#trapped !== undefined) throw this.#poisoned();
     if (this.#running) {
       throw new HandlebodyError('invalid-option', {
@@ -67,7 +85,7 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     }
     this.#running = true;
     try {
-      return run(this.#exports);
+      return run(exports);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
       this.#trapped = error;
@@ -95,6 +113,14 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     }
   }
 
+  #alive(): E {
+    if (this.#exports) return this.#exports;
+    throw new HandlebodyError('disposed', {
+      message: 'This solver was disposed of, and with it all that it made.',
+      remedy: 'Call load() for another one.',
+    });
+  }
+
   #poisoned(): HandlebodyError {
     return new HandlebodyError('wasm-trapped', {
       message: 'The solver stopped unexpectedly and cannot be used any more.',
@@ -105,11 +131,12 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
 
   #lastError(): HandlebodyError {
     const at = this.call((e) => e.hb_last_error()) >>> 0;
+    const { buffer } = this.#alive().memory;
     const layout = LAYOUT.hb_error;
-    const numbers = new Int32Array(this.#exports.memory.buffer, at, 3);
+    const numbers = new Int32Array(buffer, at, 3);
     const [code = 1, kind = 0, index = -1] = numbers;
     const text = (offset: number, end: number) => {
-      const bytes = new Uint8Array(this.#exports.memory.buffer, at + offset, end - offset);
+      const bytes = new Uint8Array(buffer, at + offset, end - offset);
       return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
     };
     const name = CULPRIT_KINDS[kind as keyof typeof CULPRIT_KINDS];

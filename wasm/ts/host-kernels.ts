@@ -39,6 +39,10 @@ export class HostKernels {
     if (kernel && --kernel.users === 0) this.#kernels.delete(id);
   }
 
+  clear(): void {
+    this.#kernels.clear();
+  }
+
   /** What the solver calls: never throws. */
   readonly call = (id: number, derivative: number, s: number): number => {
     const kernel = this.#kernels.get(id);

@@ -97,7 +97,7 @@ export abstract class Interpolant {
     const handle = this.#handle;
     if (handle === 0) return;
     this.#handle = 0;
-    this.heap.call((e) => e.hb_interpolant_free(handle));
+    this.heap.release((e) => e.hb_interpolant_free(handle));
     this.heap.free(this.#scratch);
   }
 
@@ -107,7 +107,7 @@ export abstract class Interpolant {
 
   /** @internal The object in the solver's memory. */
   protected get handle(): number {
-    if (this.#handle !== 0) return this.#handle;
+    if (this.#handle !== 0 && !this.heap.disposed) return this.#handle;
     throw new HandlebodyError('disposed', {
       message: 'This interpolant was disposed of and cannot be used any more.',
       remedy: 'Make a new one of the same data.',

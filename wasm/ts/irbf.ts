@@ -51,6 +51,11 @@ export class Irbf {
     this.#report = heap.alloc(LAYOUT.hb_irbf_report.sizeof);
   }
 
+  /** What was baked. */
+  get body(): BodyData {
+    return this.#body;
+  }
+
   /** Vertices of the mesh, as stored. */
   get vertexCount(): number {
     return this.#body.mesh.positions.length / 3;
@@ -229,7 +234,7 @@ export class Irbf {
     if (this.#irbf === 0) return;
     const irbf = this.#irbf;
     this.#irbf = 0;
-    this.#heap.call((e) => e.hb_irbf_free(irbf));
+    this.#heap.release((e) => e.hb_irbf_free(irbf));
     for (const pointer of [this.#positions, this.#normals, this.#restNormals, this.#report]) this.#heap.free(pointer);
     this.#heap.kernels.remove(this.#hostKernel);
   }

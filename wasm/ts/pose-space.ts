@@ -169,7 +169,7 @@ export class PoseSpace {
     if (this.#space === 0) return;
     const space = this.#space;
     this.#space = 0;
-    this.#heap.call((e) => e.hb_pose_space_free(space));
+    this.#heap.release((e) => e.hb_pose_space_free(space));
     this.#heap.free(this.#query);
     this.#heap.free(this.#weightsAt);
   }

@@ -65,7 +65,7 @@ export abstract class Skin {
     const handle = this.#handle;
     if (handle === 0) return;
     this.#handle = 0;
-    this.heap.call((e) => e.hb_skin_free(handle));
+    this.heap.release((e) => e.hb_skin_free(handle));
     this.heap.free(this.#out);
   }
 

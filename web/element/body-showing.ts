@@ -127,6 +127,7 @@ export class BodyShowing implements ModelShowing {
       hb,
       camera: this.#frame.view.camera,
       container: this.#frame.overlay,
+      unstyled: true,
       onWake: () => this.#frame.view.animate(this.#step),
       onMove: (i) => this.#moved(i),
       onSelect: () => this.#frame.view.invalidate(),

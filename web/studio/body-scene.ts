@@ -1,7 +1,7 @@
 import { type Object3D, Vector3 } from 'three';
 import type { Handle } from '../../wasm/ts/runtime.ts';
 import type { Step, View } from '../stage/view.ts';
-import type { DeformedGeometry } from '../three/geometry.ts';
+import type { DeformedGeometry } from '../three/deformed-geometry.ts';
 import { HandleOverlay } from '../three/handles.ts';
 import type { LiveBody, Point, Round } from '../three/live-body.ts';
 import { h } from '../ui/dom.ts';
@@ -63,6 +63,7 @@ export class BodyScene implements StudioScene, Steerable {
     this.#overlay = new HandleOverlay({
       camera: view.camera,
       container: options.overlay,
+      unstyled: true,
       step: body.data.normalization.diagonal * 0.01,
       onMove: (i, position) => this.moveTo(i, position),
       onSelect: (i) => this.#chosen(i),

@@ -1,8 +1,9 @@
 import type { BakeWarning, BodyData, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
+import { DeformedGeometry } from '../three/deformed-geometry.ts';
 import { farthestVertices } from '../three/farthest.ts';
 import { fetchModel } from '../three/fetch-model.ts';
-import { DeformedGeometry, meshFromObject } from '../three/geometry.ts';
+import { meshFromObject } from '../three/geometry.ts';
 import { LiveBody } from '../three/live-body.ts';
 import { type LoadedModel, loadModel } from '../three/load-model.ts';
 import { byId } from '../ui/dom.ts';

@@ -1,11 +1,21 @@
-import { type Object3D, type OrthographicCamera, type PerspectiveCamera, Vector3 } from 'three';
-import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { hashPositions } from '../../wasm/ts/hash.ts';
+import {
+  type Intersection,
+  Matrix4,
+  type Object3D,
+  type OrthographicCamera,
+  type PerspectiveCamera,
+  Raycaster,
+  Vector2,
+  Vector3,
+} from 'three';
 import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
+import { bakedFrom } from './deformable.ts';
+import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
-import { DeformedGeometry, meshFromObject } from './geometry.ts';
 import { HandleOverlay } from './handles.ts';
 import { LiveBody } from './live-body.ts';
+import { nearestVertex } from './nearest-vertex.ts';
+import type { SurfacePick } from './surface-pick.ts';
 
 /** A handle of the body: a vertex, or a point inside, in the object's own space; and what it is called. */
 export type DraggableHandle = Handle & { readonly name?: string };
@@ -18,6 +28,8 @@ export interface DraggableOptions {
   readonly container: HTMLElement;
   /** Those that the body names where this is left out; else vertices spread over it. */
   readonly handles?: readonly DraggableHandle[];
+  /** The page styles the handles by itself, see `HandleOverlay`. */
+  readonly unstyled?: boolean;
   /** Iterations of a frame. */
   readonly iterations?: number;
   /** Something moves: draw a frame, where the page draws on demand. */
@@ -38,7 +50,8 @@ const AT_REST = 5e-4;
 
 /**
  * Makes a baked model follow its handles: it owns the handles over the canvas, the solver's targets in the object's own space, solving, and
- * the object's geometry. The object may stand, turn and be scaled anywhere in the scene, and go on moving.
+ * the object's geometry. The object may stand, turn and be scaled anywhere in the scene, and go on moving; so may its parts below it, and
+ * the bones of a skinned mesh: each handle goes with what carries its vertex.
  *
  * Throws 'body-mismatch' where the body is another mesh's, and what `irbf` and `setHandles` throw.
  *
@@ -61,15 +74,18 @@ export class Draggable {
   readonly #live: LiveBody;
   readonly #shown: DeformedGeometry;
   readonly #place = new Vector3();
+  readonly #frame = new Matrix4();
+  readonly #raycaster = new Raycaster();
   #handles: readonly DraggableHandle[] = [];
   #rest: readonly Vector3[] = [];
+  /** For each handle the vertex that it sits on, or the one nearest to it: what carries that through the scene carries the handle. */
+  #carriers: readonly number[] = [];
   #awake = false;
 
   /** @internal Use `draggable`. */
   constructor(object: Object3D, body: BodyData, options: DraggableOptions) {
     [this.object, this.#options] = [object, options];
-    const { mesh, parts, normals } = meshFromObject(object);
-    if (hashPositions(mesh.positions) !== body.positionsHash) throw mismatch();
+    const { parts, normals } = bakedFrom(object, body);
     this.#live = new LiveBody(options.hb, body, normals);
     try {
       this.#shown = new DeformedGeometry(parts);
@@ -80,10 +96,11 @@ export class Draggable {
     this.overlay = new HandleOverlay({
       camera: options.camera,
       container: options.container,
-      onMove: (i, place) => this.#put(i, object.worldToLocal(this.#place.copy(place))),
+      onMove: (i, place) => this.#bring(i, place),
       onReset: (i) => this.reset(i),
       ...(options.onSelect && { onSelect: options.onSelect }),
       ...(options.onDrag && { onDrag: options.onDrag }),
+      ...(options.unstyled && { unstyled: true }),
     });
     const spread = () => farthestVertices(body.mesh.positions, DRAGGABLE_DEFAULTS.count).map((vertex) => ({ vertex }));
     try {
@@ -112,6 +129,10 @@ export class Draggable {
     const rest = handles.map((handle) => this.#live.rest(handle));
     this.#live.hold(handles, rest);
     [this.#handles, this.#rest] = [handles, rest];
+    const { positions } = this.#live.data.mesh;
+    this.#carriers = handles.map((handle, i) =>
+      'vertex' in handle ? handle.vertex : nearestVertex(positions, rest[i] as Vector3),
+    );
     this.overlay.set(handles.map(({ name }, i) => ({ name: name ?? `Handle ${i + 1}`, position: [0, 0, 0] })));
     this.#wake();
   }
@@ -151,14 +172,36 @@ export class Draggable {
 
   /** Puts the handles where their points are on the screen. */
   place(): void {
-    const { object, overlay } = this;
-    object.updateWorldMatrix(true, false);
-    overlay.step = this.#live.data.normalization.diagonal * object.matrixWorld.getMaxScaleOnAxis() * 0.01;
-    this.#rest.forEach((_, i) => {
-      const { x, y, z } = object.localToWorld(this.target(i, this.#place));
+    const { overlay } = this;
+    this.#shown.updateFrames();
+    this.#carriers.forEach((vertex, i) => {
+      const { x, y, z } = this.target(i, this.#place).applyMatrix4(this.#shown.frame(vertex, this.#frame));
       overlay.setPosition(i, x, y, z);
+      if (i === 0) overlay.step = this.#live.data.normalization.diagonal * this.#frame.getMaxScaleOnAxis() * 0.01;
     });
     overlay.update();
+  }
+
+  /**
+   * The vertex and the place at rest that are seen where a pointer is: of an event of the page, by the camera and the container; of
+   * a raycaster; or of a hit that somebody else found, such as an event of React Three Fiber. Undefined where there is nothing of
+   * this object.
+   *
+   * ```ts
+   * canvas.addEventListener('dblclick', (event) => {
+   *   const hit = dog.pick(event);
+   *   if (hit) dog.setHandles([...dog.handles, { vertex: hit.vertex }]);
+   * });
+   * ```
+   */
+  pick(from: Pick<PointerEvent, 'clientX' | 'clientY'> | Raycaster | Intersection): SurfacePick | undefined {
+    if ('intersectObject' in from || 'object' in from) return this.#shown.pick(from);
+    const { left, top, width, height } = this.#options.container.getBoundingClientRect();
+    const { camera } = this.#options;
+    camera.updateWorldMatrix(true, false);
+    const at = new Vector2(((from.clientX - left) / width) * 2 - 1, 1 - ((from.clientY - top) / height) * 2);
+    this.#raycaster.setFromCamera(at, camera);
+    return this.#shown.pick(this.#raycaster);
   }
 
   /** Puts the object's own geometry back, and gives back the solver's memory. */
@@ -166,11 +209,19 @@ export class Draggable {
     this.overlay?.dispose();
     this.#shown.dispose();
     this.#live.dispose();
-    [this.#handles, this.#rest, this.#awake] = [[], [], false];
+    [this.#handles, this.#rest, this.#carriers, this.#awake] = [[], [], [], false];
   }
 
   [Symbol.dispose](): void {
     this.dispose();
+  }
+
+  /** Brings a handle to a place in the world. */
+  #bring(i: number, place: Vector3): void {
+    this.#shown.updateFrames();
+    const frame = this.#shown.frame(this.#carriers[i] as number, this.#frame);
+    // What is scaled to nothing has nowhere to go.
+    if (frame.determinant() !== 0) this.#put(i, this.#place.copy(place).applyMatrix4(frame.invert()));
   }
 
   #put(i: number, target: Vector3): void {
@@ -200,11 +251,4 @@ export class Draggable {
       this.overlay.describe(i, moved < AT_REST ? 'at rest' : `moved by ${(100 * moved).toFixed(1)} % of the model’s size`);
     });
   }
-}
-
-function mismatch(): HandlebodyError {
-  return new HandlebodyError('body-mismatch', {
-    message: 'The body was baked for another mesh than this object’s.',
-    remedy: 'Give the object that was baked, at rest, or bake this one: meshFromObject(object).mesh.',
-  });
 }

@@ -2,9 +2,12 @@
 export type { FileErrorCode, FileErrorCodes } from '../assets/error-codes.ts';
 export type { PoseSpaceData, StoredPoseSpace } from '../assets/pose-space-schema.ts';
 export type { Matrix } from '../assets/transform.ts';
+export { Deformable, deformable } from './deformable.ts';
+export { DeformedGeometry } from './deformed-geometry.ts';
 export { DRAGGABLE_DEFAULTS, Draggable, type DraggableHandle, type DraggableOptions, draggable } from './draggable.ts';
 export { embeddedTextures } from './embedded-textures.ts';
-export { DeformedGeometry, meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
+export { meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
+export { HANDLE_STYLE } from './handle-style.ts';
 export { HandleOverlay, type HandleOverlayOptions, type HandlePoint } from './handles.ts';
 export {
   type HandlebodyData,
@@ -14,3 +17,4 @@ export {
   type LoadedPoseSpace,
 } from './loader.ts';
 export { type DrivenSpace, PoseDriver, poseDriver } from './pose-driver.ts';
+export type { SurfacePick } from './surface-pick.ts';

@@ -95,6 +95,7 @@ class Stage<S> {
     this.#overlay = new HandleOverlay({
       camera: this.#view.camera,
       container,
+      unstyled: true,
       onMove: (i, { x, y, z }) => this.#handles[i]?.move(x, y, z),
       onReset: (i) => this.#handles[i]?.reset(),
     });
