@@ -1,4 +1,6 @@
 /** The elements on somebody else's page: one script, one tag. */
+import { readFileSync } from 'node:fs';
+import type { ServerResponse } from 'node:http';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { HandleBodyElement, HandleFigureElement, PoseSpaceElement } from '../../web/element/index.ts';
@@ -293,6 +295,102 @@ describe('what goes wrong', () => {
     expect(await page.locator('handle-body [part=canvas]').count()).toBe(1);
     expect(await page.locator('handle-body [part=handle]').count()).toBe(6);
     expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+  });
+
+  it('a worker that is killed in mid-bake is told of, and Try again bakes', async () => {
+    const { page } = await tagPage(browser, `<handle-body src="ball.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`, {
+      files: raw,
+      before: () => {
+        const workers: Worker[] = [];
+        Object.assign(globalThis, {
+          Worker: class extends Worker {
+            constructor(...args: ConstructorParameters<typeof Worker>) {
+              super(...args);
+              workers.push(this);
+              this.addEventListener('message', ({ data }) => {
+                if (data.type === 'progress' && workers.length === 1) this.terminate();
+              });
+            }
+          },
+        });
+      },
+    });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'internal']]);
+    expect(await page.locator('handle-body [part=message]').textContent()).toContain('The worker stopped');
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await loaded(page);
+    expect(await handle(page, 5).count()).toBe(1);
+  });
+
+  it('a solver that stops is told of, the picture stays, and Try again brings the body back as it was, by another one', async () => {
+    const { page } = await tagPage(browser, dog(), {
+      before: () => {
+        const made: unknown[] = [];
+        const real = WebAssembly.instantiate;
+        const instantiate = async (module: WebAssembly.Module, imports: WebAssembly.Imports) => {
+          const instance = await real(module, imports);
+          const { exports } = instance;
+          // Decoders are WebAssembly, too.
+          if (!exports?.hb_irbf_solve) return instance;
+          made.push(exports);
+          const solve = exports.hb_irbf_solve as (...all: unknown[]) => unknown;
+          const trapping = (...all: unknown[]) => {
+            if ((globalThis as { full?: boolean }).full && made[0] === exports) throw new WebAssembly.RuntimeError('unreachable');
+            return solve(...all);
+          };
+          return { exports: { ...exports, hb_irbf_solve: trapping } };
+        };
+        Object.assign(WebAssembly, { instantiate });
+      },
+    });
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    const dragged = await still(page, PAW);
+    await page.evaluate(() => Object.assign(globalThis, { full: true }));
+    await handle(page, 1).focus();
+    await page.keyboard.press('ArrowUp');
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).at(-1)?.[1]?.code).toBe('wasm-trapped');
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+    expect(apart(await vertex(page, PAW), dragged)).toBeLessThan(1e-4);
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await soon(async () => (await eventsOf(page)).filter(([type]) => type === 'load').length).toBe(2);
+    expect(apart(await still(page, PAW), dragged)).toBeLessThan(0.01);
+    await page.keyboard.press('Tab');
+    await drag(page, 0, -30, 40);
+    expect(apart(await still(page, PAW), dragged)).toBeGreaterThan(0.05);
+    expect(await page.locator('handle-body [part=message]').isVisible()).toBe(false);
+  });
+
+  it('while a model is slow to come the former one stays and follows; one that breaks off is told of', async () => {
+    const slow: ServerResponse[] = [];
+    const file = readFileSync(new URL('../../public/models/spot.glb', import.meta.url));
+    const begin = (response: ServerResponse) => {
+      response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': file.length });
+      response.write(file.subarray(0, file.length / 2));
+      slow.push(response);
+    };
+    const tag = `<handle-body src="dog.glb" alt="A model" ${SIZE}></handle-body>`;
+    const { page } = await tagPage(browser, tag, { files: { 'slow.glb': begin, 'broken.glb': begin } });
+    await loaded(page);
+    const show = (src: string) =>
+      page.evaluate((address) => document.querySelector('handle-body')?.setAttribute('src', address), src);
+    await show('broken.glb');
+    await soon(() => page.locator('handle-body [role=progressbar], handle-body progress').first().isVisible()).toBe(true);
+    const rest = await still(page, PAW);
+    await drag(page, 0, 30, -40);
+    expect(apart(await still(page, PAW), rest)).toBeGreaterThan(0.05);
+    slow.pop()?.destroy();
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).at(-1)?.[1]?.code).toBe('file-unreadable');
+    expect(await page.locator('handle-body [part=handle]').count()).toBe(6);
+    await show('slow.glb');
+    await soon(() => slow.length).toBe(1);
+    await frames(page, 6);
+    slow.pop()?.end(file.subarray(file.length / 2));
+    await soon(async () => (await eventsOf(page)).filter(([type]) => type === 'load').length).toBe(2);
   });
 
   it('a model that did not come at first comes by Try again', async () => {

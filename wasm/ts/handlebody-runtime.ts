@@ -33,6 +33,11 @@ export class HandlebodyRuntime {
     return this.#heap.byteLength;
   }
 
+  /** Whether it can still be called: not after `dispose()`, nor after a call that ended with 'wasm-trapped'. */
+  get usable(): boolean {
+    return this.#heap.usable;
+  }
+
   /** Prepares a baked body for deformation by handles. */
   irbf(body: BodyData, options: IrbfOptions = {}): Irbf {
     return createIrbf(this.#heap, body, options);

@@ -32,6 +32,11 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     return this.#exports === undefined;
   }
 
+  /** Neither disposed of nor poisoned by a trap. */
+  get usable(): boolean {
+    return !this.disposed && this.#trapped === undefined;
+  }
+
   /** Ends the instance and lets go of its memory. Everything that needs it throws 'disposed' from then on. */
   dispose(): void {
     this.#exports = undefined;
@@ -68,9 +73,9 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     if (pointer !== 0 && this.#trapped === undefined) this.#exports?.hb_release(pointer);
   }
 
-  /** Calls what frees an object; with the instance, its objects are gone already. */
+  /** Calls what frees an object; with an instance that has ended, its objects are gone already. */
   release(run: (exports: E) => void): void {
-    if (!this.disposed) this.call(run);
+    if (this.usable) this.call(run);
   }
 
   /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */

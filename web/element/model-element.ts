@@ -70,7 +70,7 @@ export abstract class ModelElement extends ElementBase {
       ...{ src: new URL(this.src, document.baseURI), alt, stage, camera, controls, progress, signal },
       onPart: (part) => this.dispatchEvent(new CustomEvent('progress', { detail: { part } })),
       onFirst: () => this.first(),
-      onError: (error) => this.tell(error),
+      onError: (error) => (isTrap(error) ? this.tell(stopped(), () => this.#anew()) : this.tell(error)),
     });
     this.shown = shown;
     const dispose = () => {
@@ -91,6 +91,13 @@ export abstract class ModelElement extends ElementBase {
     else if (attribute === 'alt' && shown) shown.alt = this.alt;
   }
 
+  /** With another solver, as it was. */
+  #anew(): void {
+    this.quiet();
+    this.state = this.shown?.state;
+    this.again();
+  }
+
   /** Does what a wrong attribute may keep from being done, which is then told. @internal */
   protected attempt(work: () => void): void {
     try {
@@ -100,4 +107,14 @@ export abstract class ModelElement extends ElementBase {
       this.tell(error);
     }
   }
+}
+
+/** The solver has ended, and what it made with it. */
+function isTrap(error: unknown): boolean {
+  return (error as { code?: unknown }).code === 'wasm-trapped';
+}
+
+function stopped(): PageError {
+  const remedy = 'Try again: what is shown is brought back with a fresh solver. If it happens again, please report it.';
+  return new PageError('wasm-trapped', 'The solver stopped unexpectedly, perhaps for want of memory.', remedy);
 }

@@ -7,14 +7,21 @@ export const runtime = once<HandlebodyRuntime>(() => import('../../wasm/ts/runti
 /** The whole of it, for figures that bake or compute weights. */
 export const whole = once<Handlebody>(() => import('../../wasm/ts/index.ts').then(({ load }) => load()));
 
-/** Asked for again where it did not come. */
-function once<T>(make: () => Promise<T>): () => Promise<T> {
+/** Asked for again where it did not come, or came to an end. */
+function once<T extends HandlebodyRuntime>(make: () => Promise<T>): () => Promise<T> {
   let coming: Promise<T> | undefined;
+  let made: T | undefined;
   return () => {
+    if (made?.usable === false) [coming, made] = [undefined, undefined];
     coming ??= make();
-    coming.catch(() => {
-      coming = undefined;
-    });
+    coming.then(
+      (hb) => {
+        made = hb;
+      },
+      () => {
+        coming = undefined;
+      },
+    );
     return coming;
   };
 }

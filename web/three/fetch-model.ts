@@ -19,11 +19,13 @@ export async function fetchModel(
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let length = 0;
   const reader = response.body.getReader();
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    parts.push(value);
-    length += value.length;
+  const next = () =>
+    reader.read().catch((cause: unknown) => {
+      throw signal.aborted ? cause : unreadable('The model came only in part: the connection broke off.', cause);
+    });
+  for (let piece = await next(); !piece.done; piece = await next()) {
+    parts.push(piece.value);
+    length += piece.value.length;
     onProgress(announced > 0 ? Math.min(length / announced, 1) : undefined);
   }
   return new Blob(parts).arrayBuffer();

@@ -40,7 +40,24 @@ export function answer<Question, Answer>(
       reply({ type: 'error', error: packError(error) });
     }
   });
-  reply({ type: 'ready' });
+  void holdLife().then((life) => reply({ type: 'ready', life }));
+}
+
+/**
+ * Holds a lock of its own for as long as the worker lives, and gives its name: the browser takes it back however the worker ends, and nothing
+ * else tells the page of one that was killed. None where there are no locks.
+ */
+function holdLife(): Promise<string | undefined> {
+  return new Promise((resolve) => {
+    const name = `handlebody ${Math.random()}`;
+    const hold = () => {
+      resolve(name);
+      return new Promise<never>(() => {});
+    };
+    const locks = (globalThis.navigator as Navigator | undefined)?.locks;
+    if (locks) locks.request(name, hold).catch(() => resolve(undefined));
+    else resolve(undefined);
+  });
 }
 
 /** Options that can be posted; the rest act on the page's side. */

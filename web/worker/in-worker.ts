@@ -104,6 +104,10 @@ async function converse<Answer>(
         const reply = (event as MessageEvent<WorkReply<Answer>>).data;
         if (reply.type === 'ready') {
           ready = true;
+          if (reply.life) {
+            const gone = () => reject(crashed('it was ended from outside'));
+            navigator.locks.request(reply.life, { signal: listening.signal }, gone).catch(() => {});
+          }
           const [question, transfer] = ask();
           worker.postMessage({ type: 'work', question, wasm }, transfer);
         } else if (reply.type === 'progress') onProgress?.(reply.part);

@@ -19,8 +19,8 @@ interface PostedError {
 }
 
 export type WorkReply<Answer> =
-  /** The worker's code runs: without this, the page knows that it never started. */
-  | { readonly type: 'ready' }
+  /** The worker's code runs: without this, the page knows that it never started. It holds the lock `life` until it ends. */
+  | { readonly type: 'ready'; readonly life?: string | undefined }
   | { readonly type: 'progress'; readonly part: number }
   | { readonly type: 'warning'; readonly warning: BakeWarning }
   | { readonly type: 'done'; readonly answer: Answer }

@@ -1,12 +1,13 @@
 import { existsSync, readFileSync } from 'node:fs';
+import type { ServerResponse } from 'node:http';
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { inject, onTestFinished } from 'vitest';
 import { listen } from './listen.ts';
 import { otherSite } from './other-site.ts';
 
 interface TagPage extends BrowserContextOptions {
-  /** Files of the page's own server, besides the page itself. */
-  readonly files?: Readonly<Record<string, Uint8Array | string>>;
+  /** Files of the page's own server, besides the page itself; a function writes what it wants when it wants. */
+  readonly files?: Readonly<Record<string, Uint8Array | string | ((response: ServerResponse) => void)>>;
   /** Runs in the page before anything else. */
   readonly before?: () => void;
 }
@@ -29,6 +30,10 @@ export async function tagPage(
     const model = new URL(`../../../public/models/${name}`, import.meta.url);
     const body =
       name === 'page.html' ? html(site, tags) : (files[name] ?? (existsSync(model) && name ? readFileSync(model) : undefined));
+    if (typeof body === 'function') {
+      body(response);
+      return;
+    }
     const type = name === 'page.html' ? 'text/html' : 'application/octet-stream';
     response.writeHead(body === undefined ? (name === 'favicon.ico' ? 204 : 404) : 200, { 'content-type': type });
     response.end(body);
