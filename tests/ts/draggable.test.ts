@@ -5,44 +5,21 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { BodyData, Handlebody } from '../../wasm/ts/index.ts';
 import { load } from '../../wasm/ts/index.ts';
 import { draggable, meshFromObject } from '../../web/three/index.ts';
+import { FakeElement, fakeDocument } from './support/fake-element.ts';
+import { single as model } from './support/objects.ts';
 
 let hb: Handlebody;
 let body: BodyData;
-const model = () => new Group().add(new Mesh(new CapsuleGeometry(0.3, 1, 4, 12), new MeshBasicMaterial()));
 
-/** As much of an element as handles need. */
-class FakeElement extends EventTarget {
-  readonly style: Record<string, string> = {};
-  readonly dataset: Record<string, string> = {};
-  readonly children: FakeElement[] = [];
-  clientWidth = 100;
-  clientHeight = 100;
-  id = '';
-  textContent = '';
-  hidden = false;
-  append(...added: FakeElement[]): void {
-    this.children.push(...added);
-  }
-  remove(): void {}
-  matches(): boolean {
-    return false;
-  }
-  setAttribute(): void {}
-  removeAttribute(): void {}
-  toggleAttribute(): void {}
-}
-
-const before = globalThis.document;
+let restore: () => void;
 
 beforeAll(async () => {
-  Object.assign(globalThis, { document: { createElement: () => new FakeElement() } });
+  restore = fakeDocument();
   hb = await load();
   body = await hb.bake(meshFromObject(model()).mesh, { centers: 30, resolution: 24, spheres: 4 });
 });
 
-afterAll(() => {
-  Object.assign(globalThis, { document: before });
-});
+afterAll(() => restore());
 
 function make(object = model()) {
   const camera = new PerspectiveCamera(40, 1, 0.1, 50);

@@ -1,8 +1,11 @@
 import { type Document, GLB_BUFFER, type JSONDocument } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb, type GlbParts } from './check-glb.ts';
 import { checkRequiredExtensions } from './check-gltf.ts';
 import { createIo, type IoOptions } from './io.ts';
+import { type GlbMesh, meshDocument } from './mesh-document.ts';
+import { attachBody } from './write-body.ts';
 
 const ALWAYS = ['KHR_mesh_quantization', 'HANDLEBODY_body', 'HANDLEBODY_pose_space'];
 
@@ -31,15 +34,28 @@ export async function readGlb(bytes: Uint8Array, options: IoOptions = {}): Promi
   }
 }
 
+export interface WriteMeshOptions extends IoOptions {
+  /** Of the node and the mesh. */
+  readonly name?: string;
+  /** What was baked for this mesh. */
+  readonly body?: BodyData;
+}
+
 /**
- * Writes a document as GLB, byte for byte the same each time.
+ * Writes a document as GLB, or a mesh of typed arrays with or without what was baked for it; byte for byte the same each time.
+ *
+ * Of a mesh it rejects with what `meshDocument` and, with a body, `attachBody` throw.
  *
  * ```ts
- * attachBody(document, body);
- * const bytes = await writeGlb(document);
+ * const mesh = readObj(bytes);
+ * await writeFile('cow.glb', await writeGlb(mesh, { body: await hb.bake(mesh) }));
  * ```
  */
-export async function writeGlb(document: Document, options: IoOptions = {}): Promise<Uint8Array> {
+export function writeGlb(document: Document, options?: IoOptions): Promise<Uint8Array>;
+export function writeGlb(mesh: GlbMesh, options?: WriteMeshOptions): Promise<Uint8Array>;
+export async function writeGlb(from: Document | GlbMesh, options: WriteMeshOptions = {}): Promise<Uint8Array> {
+  const document = 'positions' in from ? meshDocument(from, options.name) : from;
+  if (document !== from && options.body) await attachBody(document, options.body);
   return createIo(options).writeBinary(document);
 }
 

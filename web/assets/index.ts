@@ -5,9 +5,10 @@ export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './che
 export type { MeshRange } from './concatenate.ts';
 export type { FileErrorCode, FileErrorCodes } from './error-codes.ts';
 export type { FileMesh } from './file-mesh.ts';
-export { readGlb, writeGlb } from './glb.ts';
+export { readGlb, type WriteMeshOptions, writeGlb } from './glb.ts';
 export type { GltfJson } from './gltf-json.ts';
 export { createIo, HANDLEBODY_EXTENSIONS, type IoOptions } from './io.ts';
+export { type GlbMesh, meshDocument } from './mesh-document.ts';
 export { MeshQuantization } from './mesh-quantization.ts';
 export { type IPoseSpaceProperty, PoseSpaceExtension, PoseSpaceProperty } from './pose-space-extension.ts';
 export { POSE_SPACE_VERSION, type PoseSpaceData, type PoseSpaceInput, type StoredPoseSpace } from './pose-space-schema.ts';

@@ -1,11 +1,10 @@
 /** Models of any format that the command reads, as glTF documents, and how they are written. */
 import path from 'node:path';
-import { Document, type Extension } from '@gltf-transform/core';
+import type { Document, Extension } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkGlb } from '../assets/check-glb.ts';
-import { type FileMesh, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, readGlb, readObj, readPly, writeGlb } from '../assets/index.ts';
-import { areaNormals } from './area-normals.ts';
+import { HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, meshDocument, readGlb, readObj, readPly, writeGlb } from '../assets/index.ts';
 import type { Report } from './report.ts';
 
 /** Those whose data glTF-Transform cannot read without a decoder. */
@@ -36,7 +35,7 @@ export async function readModel(bytes: Uint8Array, name: string, report?: Report
     if (format !== 'GLB') {
       const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
       for (const message of mesh.warnings) report?.warn({ code: 'left-out', message });
-      return { document: documentOf(mesh, path.basename(name, path.extname(name))), format };
+      return { document: meshDocument(mesh, path.basename(name, path.extname(name))), format };
     }
     if (report) warnOfLost(bytes, report);
     const document = await readGlb(bytes, { extensions: EXTENSIONS });
@@ -77,28 +76,4 @@ function joinBuffers(document: Document): void {
   if (!first || others.length === 0) return;
   for (const accessor of document.getRoot().listAccessors()) accessor.setBuffer(first);
   for (const buffer of others) buffer.dispose();
-}
-
-/** One mesh in one node, its vertices as they came. */
-function documentOf(file: FileMesh, name: string): Document {
-  const document = new Document();
-  const buffer = document.createBuffer();
-  const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3', array: Float32Array | Uint16Array | Uint32Array) =>
-    document
-      .createAccessor('', buffer)
-      .setType(type)
-      .setArray(array as Float32Array<ArrayBuffer>);
-  const { positions, triangles, uvs } = file;
-  const primitive = document.createPrimitive().setAttribute('POSITION', accessor('VEC3', positions));
-  if (triangles.length === 0) primitive.setMode(0);
-  else {
-    const normals = file.normals ?? areaNormals(positions, triangles);
-    // 65535 would restart a primitive.
-    const indices = positions.length / 3 <= 65535 ? Uint16Array.from(triangles) : triangles;
-    primitive.setAttribute('NORMAL', accessor('VEC3', normals)).setIndices(accessor('SCALAR', indices));
-  }
-  if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', uvs));
-  const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
-  document.getRoot().setDefaultScene(document.createScene().addChild(node));
-  return document;
 }

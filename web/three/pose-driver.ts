@@ -1,4 +1,4 @@
-import type { Mesh } from 'three';
+import type { Mesh, Object3D } from 'three';
 import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
 import type { LoadedPoseSpace } from './loader.ts';
@@ -6,37 +6,48 @@ import type { LoadedPoseSpace } from './loader.ts';
 /** What a driver needs of a loaded pose space. */
 export type DrivenSpace = Pick<LoadedPoseSpace, 'dimensions' | 'examples' | 'meshes'>;
 
+/** A mesh that follows, and which of its influences each number of an example is, where the order is its own. */
+interface Follower {
+  readonly mesh: Mesh;
+  readonly targets: readonly (number | undefined)[] | undefined;
+}
+
 /**
- * Steers the morph targets of a loaded face by a place in its pose space (§3.4 of the course, cardinal interpolation).
+ * Steers the morph targets of a loaded face by a place in its pose space (§3.4 of the course, cardinal interpolation). Targets that no
+ * example moves keep their influences, so that blinks and the like can be moved beside it.
+ *
+ * Meshes below `object`, when it is given, follow by the names of their morph targets: teeth, tongue and lashes that share a face's.
  *
  * Throws what `poseSpace` throws.
  *
  * ```ts
  * const [space] = handlebodyData(gltf).poseSpaces;
- * const face = poseDriver(hb, space);
+ * const face = poseDriver(hb, space, gltf.scene);
  * face.set([0.6, 0.4]); // valence and arousal
  * ```
  */
-export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace): PoseDriver {
-  return new PoseDriver(hb, space);
+export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace, object?: Object3D): PoseDriver {
+  return new PoseDriver(hb, space, object);
 }
 
 export class PoseDriver {
   /** One number an example, at the place that was set last. */
   readonly weights: Float64Array;
   readonly #space: PoseSpace;
-  readonly #meshes: readonly Mesh[];
+  readonly #followers: readonly Follower[];
   readonly #shape: Float64Array;
-  readonly #ranges: readonly Range[];
+  readonly #ranges: readonly (Range | undefined)[];
 
   /** @internal Use `poseDriver`. */
-  constructor(hb: HandlebodyRuntime, { dimensions, examples, meshes }: DrivenSpace) {
+  constructor(hb: HandlebodyRuntime, { dimensions, examples, meshes }: DrivenSpace, object?: Object3D) {
     const shapes = examples.map(({ weights }) => weights);
     this.#space = hb.poseSpace({
       dimensions: dimensions.map(({ name }) => name),
       examples: examples.map(({ name, at, weights }) => ({ name, at: [...at], shape: weights })),
     });
-    [this.#meshes, this.#ranges] = [meshes, rangesOf(shapes)];
+    const others = object ? followersBelow(object, meshes, shapes[0]?.length ?? 0) : [];
+    this.#followers = [...meshes.map((mesh) => ({ mesh, targets: undefined })), ...others];
+    this.#ranges = rangesOf(shapes);
     this.weights = new Float64Array(examples.length);
     this.#shape = new Float64Array(shapes[0]?.length ?? 0);
   }
@@ -45,8 +56,8 @@ export class PoseDriver {
   set(at: readonly number[]): void {
     this.#space.weights(at, this.weights);
     this.#space.evaluate(at, this.#shape);
-    for (const { morphTargetInfluences } of this.#meshes)
-      if (morphTargetInfluences) setInfluences(morphTargetInfluences, this.#shape, this.#ranges);
+    for (const { mesh, targets } of this.#followers)
+      if (mesh.morphTargetInfluences) setInfluences(mesh.morphTargetInfluences, this.#shape, this.#ranges, targets);
   }
 
   dispose(): void {
@@ -56,4 +67,19 @@ export class PoseDriver {
   [Symbol.dispose](): void {
     this.dispose();
   }
+}
+
+/** Other meshes with morph targets of the same names. A number alone is no name: three.js gives it to those that have none. */
+function followersBelow(object: Object3D, meshes: readonly Mesh[], count: number): Follower[] {
+  const names = Object.entries(meshes[0]?.morphTargetDictionary ?? {}).filter(([name, i]) => name !== String(i) && i < count);
+  const followers: Follower[] = [];
+  object.traverse((node) => {
+    const mesh = node as Mesh;
+    const own = mesh.morphTargetDictionary;
+    if (!own || meshes.includes(mesh) || !names.some(([name]) => Object.hasOwn(own, name))) return;
+    const targets: (number | undefined)[] = Array(count).fill(undefined);
+    for (const [name, i] of names) if (Object.hasOwn(own, name)) targets[i] = own[name];
+    followers.push({ mesh, targets });
+  });
+  return followers;
 }

@@ -19,7 +19,22 @@ describe('the influences of morph targets', () => {
   it('stay within 0 and 1, or within what the examples ask for', () => {
     const influences = [0, 0, 0, 0, 7];
     setInfluences(influences, [-0.06, 1.04, -0.3, 1.6], ranges);
-    expect(influences).toEqual([0, 1, -0.25, 1.5, 0]);
+    expect(influences).toEqual([0, 1, -0.25, 1.5, 7]);
+  });
+
+  it('stay as they are where no example moves them, and go where a mesh has them', () => {
+    const [few, other] = [
+      [3, 4, 5, 6],
+      [3, 4, 5],
+    ];
+    const used = rangesOf([
+      [0, 0, 1],
+      [0, 0, 0.5],
+    ]);
+    setInfluences(few, [0.4, 0.5, 0.6], used);
+    expect(few).toEqual([3, 4, 0.6, 6]);
+    setInfluences(other, [0.4, 0.5, 0.6], used, [undefined, 2, 0]);
+    expect(other).toEqual([0.6, 4, 5]);
   });
 
   it('need no example', () => {

@@ -1,0 +1,85 @@
+import { Document } from '@gltf-transform/core';
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { areaNormals } from './area-normals.ts';
+
+/** A mesh of typed arrays, as the solver takes it and `readObj` and `readPly` give it, to be written as glTF. */
+export interface GlbMesh {
+  /** n×3. */
+  readonly positions: Float32Array | Float64Array;
+  /** m×3, counter-clockwise seen from outside; none for a cloud of points. */
+  readonly triangles?: Uint16Array | Uint32Array;
+  /** n×3, of unit length; where a surface has none they are made smooth. */
+  readonly normals?: Float32Array | undefined;
+  /** n×2, from the top left. */
+  readonly uvs?: Float32Array | undefined;
+}
+
+/**
+ * A document of one mesh in one node, its vertices in their order: what `attachBody` and other tools of glTF-Transform go on with.
+ * Positions are stored as floats.
+ *
+ * Throws 'invalid-shape' for lengths that do not agree, 'mesh-not-finite' or 'mesh-index-out-of-range'.
+ *
+ * ```ts
+ * const document = meshDocument(readObj(bytes), 'cow');
+ * ```
+ */
+export function meshDocument({ positions, triangles = new Uint32Array(), normals, uvs }: GlbMesh, name = ''): Document {
+  check({ positions, triangles, normals, uvs });
+  const document = new Document();
+  const buffer = document.createBuffer();
+  const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3', array: Float32Array | Uint16Array | Uint32Array) =>
+    document
+      .createAccessor('', buffer)
+      .setType(type)
+      .setArray(array as Float32Array<ArrayBuffer>);
+  const floats = Float32Array.from(positions);
+  const primitive = document.createPrimitive().setAttribute('POSITION', accessor('VEC3', floats));
+  if (triangles.length === 0) primitive.setMode(0);
+  else {
+    // 65535 would restart a primitive.
+    const indices = positions.length / 3 <= 65535 ? Uint16Array.from(triangles) : Uint32Array.from(triangles);
+    primitive.setIndices(accessor('SCALAR', indices));
+  }
+  if (normals || triangles.length > 0)
+    primitive.setAttribute('NORMAL', accessor('VEC3', normals?.slice() ?? areaNormals(floats, triangles)));
+  if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', uvs.slice()));
+  const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
+  document.getRoot().setDefaultScene(document.createScene().addChild(node));
+  return document;
+}
+
+function check({ positions, triangles, normals, uvs }: Required<GlbMesh>): void {
+  const count = positions.length / 3;
+  const lengths = [
+    ['positions', positions.length, Number.isInteger(count) && count > 0, 'x, y and z for every vertex'],
+    ['triangles', triangles.length, triangles.length % 3 === 0, 'three vertex numbers for every triangle'],
+    ['normals', normals?.length, !normals || normals.length === 3 * count, 'x, y and z for every vertex'],
+    ['uvs', uvs?.length, !uvs || uvs.length === 2 * count, 'two numbers for every vertex'],
+  ] as const;
+  for (const [what, length, fits, remedy] of lengths) {
+    if (fits) continue;
+    throw new HandlebodyError('invalid-shape', {
+      message: `The mesh’s ${what} have ${length} numbers; its positions have ${positions.length}.`,
+      remedy: `Give ${remedy}.`,
+    });
+  }
+  for (const numbers of [positions, normals ?? [], uvs ?? []]) {
+    const bad = numbers.findIndex((x) => !Number.isFinite(x));
+    if (bad === -1) continue;
+    const vertex = Math.floor(bad / (numbers === uvs ? 2 : 3));
+    throw new HandlebodyError('mesh-not-finite', {
+      message: `Vertex ${vertex} has a number that is ${numbers[bad]}.`,
+      remedy: 'Remove NaN and infinite numbers.',
+      culprit: { kind: 'vertex', index: vertex },
+    });
+  }
+  const beyond = triangles.findIndex((vertex) => vertex >= count);
+  if (beyond === -1) return;
+  const triangle = Math.floor(beyond / 3);
+  throw new HandlebodyError('mesh-index-out-of-range', {
+    message: `Triangle ${triangle} uses vertex ${triangles[beyond]}, but there are only ${count}.`,
+    remedy: 'Give vertex numbers from 0.',
+    culprit: { kind: 'triangle', index: triangle },
+  });
+}
