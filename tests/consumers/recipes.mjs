@@ -1,0 +1,2 @@
+/** @type {Record<string, import('./consumers.mjs').Consumer>} */
+export const RECIPES = {};
