@@ -6,16 +6,17 @@ import { at } from '../../scripts/lib/paths.mjs';
 import { capture } from '../../scripts/lib/run.mjs';
 import { copy, install, pack, tool } from './project.mjs';
 import { serve, start } from './serve.mjs';
-import { dragCapsules, dragElement, expectGreen } from './visit.mjs';
+import { dragCapsules, dragElement, expectFigure, expectGreen } from './visit.mjs';
 
 /** What all consumers share: the packed library, a folder with the models, where screenshots go. @typedef {{ tarball: string, models: string, screenshots?: string }} Kit */
 /** @typedef {import('./serve.mjs').Site} Site */
 /** @typedef {import('./visit.mjs').Visit} Visit */
 /**
  * `build` makes a project in the folder and serves what comes of it; `use` visits that, and tells how far the vertices moved. One without a
- * page moves its vertices in `build`. `python` is what has to be there besides npm's packages.
+ * page moves its vertices in `build`.
  * @typedef {object} Consumer
- * @property {string[]} packages exact versions
+ * @property {string[]} packages npm's, of exact versions: "vite@8.4.0"
+ * @property {string[]} [pip] Python's: "sphinx==9.0.4"
  * @property {(folder: string, kit: Kit) => Promise<Site | number[]>} build
  * @property {(visit: Visit, kit: Kit) => Promise<number[]>} [use]
  */
@@ -77,9 +78,11 @@ function standalone(strict) {
       const page = path.join(folder, 'page');
       mkdirSync(page);
       writeFileSync(path.join(page, 'style.css'), 'handle-body { display: block; width: 480px; height: 320px }');
-      const tag = '<handle-body src="capsule.glb" alt="A capsule" handles="End: 0"></handle-body>';
+      const tags =
+        '<handle-body src="capsule.glb" alt="A capsule" handles="End: 0" controls></handle-body>' +
+        '<handle-figure name="course-12" controls caption></handle-figure>';
       const script = strict ? 'handlebody.standalone.js' : `${there.url}handlebody.standalone.js`;
-      writeFileSync(path.join(page, 'index.html'), `${html(script, '<link rel="stylesheet" href="style.css">')}${tag}`);
+      writeFileSync(path.join(page, 'index.html'), `${html(script, '<link rel="stylesheet" href="style.css">')}${tags}`);
       const here = await serve([page, models, ...(strict ? [dist] : [])], strict);
       return { url: here.url, close: () => [here, there].map((site) => site.close()) };
     },
@@ -87,6 +90,7 @@ function standalone(strict) {
       const moved = await dragElement(visit, 'handle-body');
       if (visit.workers.length !== 1) throw new Error(`${visit.workers.length} workers were started.`);
       await expectGreen(visit.page, 'handle-body');
+      await expectFigure(visit, 'handle-figure');
       return [moved];
     },
   };

@@ -45,14 +45,18 @@ export async function tryConsumers(consumers, { screenshots } = {}) {
 }
 
 /** @param {Consumer} consumer @param {string} folder @param {import('./consumers.mjs').Kit} kit @param {import('playwright-core').Browser} browser @returns {Promise<Result>} */
-async function tryOne({ packages, build, use }, folder, kit, browser) {
+async function tryOne({ packages, pip = [], build, use }, folder, kit, browser) {
   /** @type {Visit | undefined} */
   let visit;
   /** @type {import('./serve.mjs').Site | undefined} */
   let site;
   try {
     const built = await build(folder, kit);
-    const tools = { node: process.versions.node, ...versions(folder, packages) };
+    const tools = {
+      node: process.versions.node,
+      ...versions(folder, packages),
+      ...Object.fromEntries(pip.map((one) => one.split('=='))),
+    };
     if (Array.isArray(built)) return { passed: built.every((moved) => moved > 0.1), tools, moved: built.map(short) };
     site = built;
     visit = await Visit.open(browser, site.url);

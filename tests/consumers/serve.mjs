@@ -6,6 +6,9 @@ import path from 'node:path';
 
 /** A server until it is closed; `url` ends with a slash. @typedef {{ url: string, close(): void }} Site */
 
+/** Milliseconds until a server that does not answer is given up. */
+const PATIENCE = 60_000;
+
 /** @type {Record<string, string>} */
 const TYPES = {
   '.html': 'text/html; charset=utf-8',
@@ -27,9 +30,10 @@ export async function serve(folders, headers = {}) {
     const file = folders
       .flatMap((folder) => candidates(folder, asked))
       .find((name) => statSync(name, { throwIfNoEntry: false })?.isFile());
-    // Browsers ask for an icon whatever the page says.
-    const status = file ? 200 : asked === '/favicon.ico' ? 204 : 404;
-    response.writeHead(status, { 'content-type': TYPES[path.extname(file ?? '')] ?? 'application/octet-stream', ...headers });
+    response.writeHead(file ? 200 : 404, {
+      'content-type': TYPES[path.extname(file ?? '')] ?? 'application/octet-stream',
+      ...headers,
+    });
     response.end(file && readFileSync(file));
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve(undefined)));
@@ -54,10 +58,12 @@ export async function start(folder, command, env) {
   free.close();
   const child = spawn(process.execPath, command(port), { cwd: folder, env: { ...process.env, ...env }, stdio: 'ignore' });
   const url = `http://127.0.0.1:${port}/`;
-  for (;;) {
-    const answer = await fetch(url).catch(() => undefined);
-    if (answer) break;
-    if (child.exitCode !== null) throw new Error(`${command(port).join(' ')} ended with status ${child.exitCode}`);
+  const end = performance.now() + PATIENCE;
+  while (!(await fetch(url).catch(() => undefined))) {
+    if (child.exitCode !== null || performance.now() > end) {
+      child.kill();
+      throw new Error(`${command(port).join(' ')} does not answer (status ${child.exitCode}).`);
+    }
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
   return { url, close: () => child.kill() };

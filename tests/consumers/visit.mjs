@@ -24,7 +24,7 @@ export class Visit {
     page.on('worker', (worker) => this.workers.push(new URL(worker.url()).protocol === 'blob:' ? 'from text' : 'from its file'));
     page.on('pageerror', (error) => this.complaints.push(String(error)));
     page.on('console', (message) => {
-      if (message.type() === 'error') this.complaints.push(message.text());
+      if (message.type() === 'error') this.complaints.push(`${message.text()} ${message.location().url}`);
     });
   }
 
@@ -32,6 +32,8 @@ export class Visit {
   static async open(browser, url) {
     const page = await browser.newPage({ viewport: { width: 1000, height: 760 }, reducedMotion: 'reduce' });
     const visit = new Visit(page);
+    // Browsers ask for an icon whatever the page says.
+    await page.route('**/favicon.ico', (route) => route.fulfill({ status: 204 }));
     await page.goto(url);
     return visit;
   }
@@ -127,7 +129,7 @@ export async function dragCapsules(visit, container = 'main', call = 0) {
 }
 
 /**
- * A `<handle-body>`: waits until it is there, drags its first handle, which is on vertex 0, and hears of it.
+ * A `<handle-body>`: waits until it is there, drags its first handle, which is on a vertex, and hears of it.
  * @param {Visit} visit @param {string} selector @returns {Promise<number>}
  */
 export async function dragElement(visit, selector) {
@@ -135,11 +137,11 @@ export async function dragElement(visit, selector) {
   await visit.wait('The model', () =>
     element.evaluate((tag) => /** @type {{ loaded?: boolean }} */ (/** @type {unknown} */ (tag)).loaded),
   );
-  /** @typedef {HTMLElement & { vertex(v: number): Place, targets: Place[], heard?: { index: number, to: Place } }} Tag */
+  /** @typedef {HTMLElement & { vertex(v: number): Place, targets: Place[], handles: { vertex: number }[], heard?: { index: number, to: Place } }} Tag */
   const ask = () =>
     element.evaluate((tag) => {
-      const { targets, heard } = /** @type {Tag} */ (tag);
-      return { vertex: /** @type {Tag} */ (tag).vertex(0), target: /** @type {Place} */ (targets[0]), heard };
+      const { targets, handles, heard } = /** @type {Tag} */ (tag);
+      return { vertex: /** @type {Tag} */ (tag).vertex(handles[0]?.vertex ?? 0), target: /** @type {Place} */ (targets[0]), heard };
     });
   const { vertex: rest } = await ask();
   await element.evaluate((tag) => {
@@ -154,11 +156,21 @@ export async function dragElement(visit, selector) {
   return moved;
 }
 
+/** A `<handle-figure>` comes when it is near, and tells its numbers. @param {Visit} visit @param {string} selector */
+export async function expectFigure(visit, selector) {
+  const figure = visit.page.locator(selector);
+  await figure.scrollIntoViewIfNeeded();
+  await visit.wait('The figure', () =>
+    figure.evaluate((tag) => {
+      const { told = [] } = /** @type {HTMLElement & { told?: unknown[] }} */ (tag);
+      return told.length > 0;
+    }),
+  );
+}
+
 /** The model's texture is seen. @param {Page} page @param {string} selector */
 export async function expectGreen(page, selector) {
-  const shot = await page.locator(selector).screenshot();
-  (await import('node:fs')).writeFileSync('/tmp/h1shots/green.png', shot);
-  const { data } = PNG.sync.read(shot);
+  const { data } = PNG.sync.read(await page.locator(selector).screenshot());
   let green = 0;
   for (let i = 0; i < data.length; i += 4) if (Number(data[i + 1]) - Math.max(Number(data[i]), Number(data[i + 2])) > 60) green++;
   if (green < 500) throw new Error(`The texture does not show: ${green} pixels are green.`);
