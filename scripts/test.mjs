@@ -1,6 +1,6 @@
-// `npm test`: installs what it needs, then runs every suite: native C++, TypeScript on the real wasm, a real browser on the built site.
-// The last line is always "N passed, N failed". REQUIRE_NATIVE=1 makes a native suite that cannot run a failure. `npm test -- ts`
-// (native, ts, web) runs only the suites that are named.
+// `npm test`: installs what it needs, then runs every suite: native C++, TypeScript on the real wasm, a real browser on the built site, and
+// two consumers of the packed library. The last line is always "N passed, N failed". REQUIRE_NATIVE=1 and REQUIRE_CONSUMERS=1 make a suite
+// that cannot run a failure. `npm test -- ts` (native, ts, web, consumers) runs only the suites that are named.
 import { existsSync, readdirSync } from 'node:fs';
 import { ensureInstalled } from './lib/install.mjs';
 import { prepareNativeSuite } from './lib/native.mjs';
@@ -9,7 +9,9 @@ import { runMain } from './lib/run.mjs';
 import { buildSite, hasPages } from './lib/site.mjs';
 import { runVitest } from './lib/vitest.mjs';
 
-const SUITES = ['native', 'ts', 'web'];
+const SUITES = ['native', 'ts', 'web', 'consumers'];
+/** One that makes a single script of everything, and one that bundles nothing: all others are `npm run test:consumers`. */
+const CONSUMERS = ['esbuild', 'import map'];
 const named = process.argv.slice(2);
 const wanted = (/** @type {string} */ suite) => named.length === 0 || named.includes(suite);
 
@@ -38,6 +40,11 @@ await runMain(async () => {
   if (both[0]) add('native', both[0]);
   if (both[1]) add('ts', both[1]);
   if (wanted('web') && hasWebTests()) add('web', await runWebSuite());
+  const consumers = wanted('consumers') ? await runConsumers() : undefined;
+  if (consumers && 'notRun' in consumers) {
+    lines.push(`consumers suite: NOT RUN (${consumers.notRun})`);
+    if (process.env.REQUIRE_CONSUMERS === '1') total.failed += 1;
+  } else if (consumers) add('consumers', consumers);
 
   console.log(`\n${lines.join('\n')}\n${total.passed} passed, ${total.failed} failed`);
   return total.failed === 0 ? 0 : 1;
@@ -57,6 +64,27 @@ async function runWebSuite() {
     const { findChromium } = await import('./chromium.mjs');
     process.env.CHROMIUM = await findChromium();
     return await runVitest('web');
+  } catch (error) {
+    console.error(error instanceof Error ? error.message : error);
+    return { passed: 0, failed: 1 };
+  }
+}
+
+/**
+ * What has to be installed comes from npm's registry; without it nothing is said of the library.
+ * @returns {Promise<import('./lib/native.mjs').Counts | { notRun: string }>}
+ */
+async function runConsumers() {
+  try {
+    const [all, { countResults, tryConsumers }] = await Promise.all([
+      import('../tests/consumers/consumers.mjs'),
+      import('../tests/consumers/run.mjs'),
+    ]);
+    const chosen = Object.fromEntries(Object.entries(all.CONSUMERS).filter(([name]) => CONSUMERS.includes(name)));
+    const results = await tryConsumers(chosen);
+    const counts = countResults(results);
+    const { notRun } = Object.values(results).find((one) => one.notRun !== undefined) ?? {};
+    return notRun === undefined || counts.failed > 0 ? counts : { notRun };
   } catch (error) {
     console.error(error instanceof Error ? error.message : error);
     return { passed: 0, failed: 1 };

@@ -1,7 +1,7 @@
 // What every command needs before it can work: a Node that is new enough, and the packages of package-lock.json.
 import { existsSync, statSync } from 'node:fs';
 import { at } from './paths.mjs';
-import { mustRun } from './run.mjs';
+import { capture, mustRun } from './run.mjs';
 
 const NEEDED = [20, 19];
 
@@ -31,7 +31,18 @@ export async function ensureInstalled() {
 
 /** Runs npm: the one that started us if any. @param {string[]} args @param {import('node:child_process').SpawnOptions} [options] */
 export async function npm(args, options = {}) {
+  const { program, first, shell } = npmProgram();
+  await mustRun(program, [...first, ...args], { shell, ...options });
+}
+
+/** Runs npm quietly. @param {string[]} args @param {import('node:child_process').SpawnSyncOptions} [options] */
+export function captureNpm(args, options = {}) {
+  const { program, first, shell } = npmProgram();
+  return capture(program, [...first, ...args], { shell, ...options });
+}
+
+function npmProgram() {
   const own = process.env.npm_execpath;
-  if (own && /npm-cli\.c?js$/.test(own)) await mustRun(process.execPath, [own, ...args], options);
-  else await mustRun('npm', args, { shell: process.platform === 'win32', ...options });
+  if (own && /npm-cli\.c?js$/.test(own)) return { program: process.execPath, first: [own], shell: false };
+  return { program: 'npm', first: [], shell: process.platform === 'win32' };
 }

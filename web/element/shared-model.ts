@@ -1,5 +1,5 @@
 import type { Mesh, Object3D } from 'three';
-import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
+import { clone } from 'three/addons/utils/SkeletonUtils.js';
 import { throwIfAborted } from '../../wasm/ts/errors.ts';
 import { fetchModel } from '../three/fetch-model.ts';
 import { type LoadedModel, loadModel } from '../three/load-model.ts';

@@ -1,4 +1,4 @@
-import type { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { isDragging } from '../ui/drag.ts';
 
 /**

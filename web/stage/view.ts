@@ -1,5 +1,5 @@
 import { Box3, MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
 import { isDark, onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
 import { disposeObject } from './dispose-object.ts';

@@ -1,5 +1,5 @@
 import type { Object3D } from 'three';
-import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb } from '../assets/check-glb.ts';
