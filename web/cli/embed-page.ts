@@ -26,7 +26,7 @@ export function embedPage(content: Content): { readonly bytes: Uint8Array; reado
 <style>
 body { margin: 0; font: 400 0.9375rem / 1.5 system-ui, sans-serif; }
 main:has(handle-figure) { max-width: 75rem; margin: 0 auto; padding: 16px; }
-handle-body, pose-space { display: block; height: 100vh; height: 100dvh; }
+handle-body, pose-space { display: block; height: 100vh; height: 100dvh; aspect-ratio: auto; }
 noscript p { padding: 16px; }
 </style>
 <script type="importmap">${JSON.stringify(map)}</script>
