@@ -1,7 +1,13 @@
-// The elements for pages without a bundler: handlebody.standalone.js with three.js in it, and in standalone/ what it fetches when asked.
+// The elements for pages without a bundler: handlebody.standalone.js with three.js in it, and in standalone/ what it fetches when asked; and
+// handlebody.anywidget.js, which is all of it in one file, for notebooks.
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { at } from './paths.mjs';
+
+/** What both builds have alike. @type {import('vite').InlineConfig} */
+const COMMON = { configFile: false, root: at('web'), publicDir: false, base: './', logLevel: 'warn' };
+/** @satisfies {import('vite').BuildEnvironmentOptions} */
+const BUILD = { emptyOutDir: false, target: 'es2022', modulePreload: /** @type {const} */ (false) };
 
 /**
  * @param {string} folder Where to, from the project's folder; what lies there stays.
@@ -10,17 +16,11 @@ import { at } from './paths.mjs';
 export async function buildStandalone(folder, { embed = false } = {}) {
   const { build } = await import('vite');
   await build({
-    configFile: false,
-    root: at('web'),
-    publicDir: false,
-    base: './',
-    logLevel: 'warn',
+    ...COMMON,
     worker: { format: 'es', rolldownOptions: { output: { entryFileNames: 'standalone/[name].js' } } },
     build: {
+      ...BUILD,
       outDir: at(folder),
-      emptyOutDir: false,
-      target: 'es2022',
-      modulePreload: false,
       // Which file asks for which: `handlebody embed` takes only those that a page needs.
       manifest: 'standalone/manifest.json',
       chunkSizeWarningLimit: 1000,
@@ -31,7 +31,37 @@ export async function buildStandalone(folder, { embed = false } = {}) {
       },
     },
   });
+  writeFileSync(path.join(at(folder), 'handlebody.anywidget.js'), await inOneFile('web/element/anywidget.ts'));
   if (!embed) return;
   const page = readFileSync(at('web', 'embed.html'), 'utf8');
   writeFileSync(path.join(at(folder), 'embed.html'), page.replace('./embed/main.ts', './embed.js'));
 }
+
+/** A module, and all that it may ask for, as one text. @param {string} entry */
+async function inOneFile(entry) {
+  const { build } = await import('vite');
+  const made = await build({
+    ...COMMON,
+    plugins: [withoutWorkerFiles],
+    build: {
+      ...BUILD,
+      write: false,
+      rolldownOptions: { input: at(entry), preserveEntrySignatures: 'strict', output: { codeSplitting: false } },
+    },
+  });
+  const files = [made].flat().flatMap((result) => ('output' in result ? result.output : []));
+  const [only, ...others] = files;
+  if (only?.type !== 'chunk' || others.length > 0)
+    throw new Error(`${entry} is not one file: ${files.map(({ fileName }) => fileName).join(', ')}`);
+  return only.code;
+}
+
+/** Where there is one file only, workers start from the text that the library carries. @type {import('vite').Plugin} */
+const withoutWorkerFiles = {
+  name: 'without-worker-files',
+  enforce: 'pre',
+  transform: (code, id) =>
+    /[\\/]worker[\\/]\w+-in-worker\.ts$/.test(id)
+      ? code.replace(/return new Worker\(new URL\([^;]*;/, "throw new Error('no file of a worker comes with this one');")
+      : undefined,
+};

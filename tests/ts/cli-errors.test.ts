@@ -22,6 +22,13 @@ const QUICK = ['--centers', '10', '--resolution', '24'];
 /** A tetrahedron, and what is wrong with it. */
 const OBJ = (change = '') => `v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n${change}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n`;
 
+/** A GLB that is sound and has nothing in it but this. */
+function container(json: object): Uint8Array {
+  const text = Buffer.from(JSON.stringify({ asset: { version: '2.0' }, ...json }));
+  const chunk = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
+  return Buffer.concat([Buffer.from(Uint32Array.of(0x46546c67, 2, 20 + chunk.length, chunk.length, 0x4e4f534a).buffer), chunk]);
+}
+
 const files: Record<string, string | Uint8Array> = {
   'good.obj': OBJ(),
   'damaged.obj': OBJ('v 1 2'),
@@ -30,6 +37,8 @@ const files: Record<string, string | Uint8Array> = {
   'text.gltf': '{"asset": {"version": "2.0"}}',
   'empty.glb': '',
   'cut.glb': readFileSync(SPOT).subarray(0, 5000),
+  'bare.glb': container({}),
+  'outside.glb': container({ images: [{ uri: 'skin.png' }] }),
   'short.ply':
     'ply\nformat ascii 1.0\nelement vertex 1000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n',
   'good.json': '{"handles": [{"vertex": 0, "to": [0, 0, 0]}]}',
@@ -80,6 +89,16 @@ describe('exit codes', () => {
       'handles-invalid',
     ],
     ['a model that is not baked', ['deform', 'good.obj', '--handles', 'good.json', '-o', 'out.glb'], EXIT.refused, 'body-missing'],
+    ['a figure that is not there', ['embed', 'corse-12', '-o', 'out.html'], EXIT.usage, 'unknown-figure'],
+    ['a page by the name of a GLB', ['embed', 'course-12', '-o', 'out.glb'], EXIT.usage, 'usage'],
+    ['a state given twice', ['embed', 'course-12#v1&wide', '--state', 'v1&narrow', '-o', 'out.html'], EXIT.usage, 'usage'],
+    ['a state of a model', ['embed', SPOT, '--state', 'v1&narrow', '-o', 'out.html'], EXIT.usage, 'usage'],
+    ['a model to embed that is not there', ['embed', 'none.glb', '-o', 'out.html'], EXIT.input, 'file-unreadable'],
+    ['an OBJ to embed', ['embed', 'good.obj', '-o', 'out.html'], EXIT.input, 'file-not-glb'],
+    ['a web page to embed', ['embed', 'page.glb', '-o', 'out.html'], EXIT.input, 'file-not-glb'],
+    ['a model to embed whose image is another file', ['embed', 'outside.glb', '-o', 'out.html'], EXIT.input, 'file-unsupported'],
+    ['a model to embed without a surface', ['embed', 'bare.glb', '-o', 'out.html'], EXIT.refused, 'mesh-no-triangles'],
+    ['a page in no folder', ['embed', 'course-12', '-o', 'none/out.html'], EXIT.output, 'output-unwritable'],
     ['an output in no folder', ['bake', 'good.obj', '-o', 'none/out.glb'], EXIT.output, 'output-unwritable'],
     ['a folder for an output', ['bake', 'good.obj', '-o', 'folder'], EXIT.output, 'output-unwritable'],
   ] as [string, string[], number, string?][])('%s', async (_, args, status, code) => {

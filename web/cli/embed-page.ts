@@ -26,14 +26,18 @@ export function embedPage(content: Content): { readonly bytes: Uint8Array; reado
 <style>
 body { margin: 0; font: 400 0.9375rem / 1.5 system-ui, sans-serif; }
 main:has(handle-figure) { max-width: 75rem; margin: 0 auto; padding: 16px; }
-handle-body, pose-space { display: block; height: 100vh; height: 100dvh; }
+handle-body, pose-space { display: block; height: 100vh; height: 100dvh; aspect-ratio: auto; }
 noscript p { padding: 16px; }
+h1 { position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; clip-path: inset(50%); }
 </style>
 <script type="importmap">${JSON.stringify(map)}</script>
 </head>
 <body>
 <noscript><p>What this page shows is a program: allow JavaScript for it.</p></noscript>
-<main aria-label="${escapeHtml(content.title)}">${tagOf(content)}</main>
+<main>
+<h1>${escapeHtml(content.title)}</h1>
+${tagOf(content)}
+</main>
 <script type="module">import '${ENTRY}';</script>
 <script type="text/plain" id="licenses">${notices(modules)}</script>
 </body>

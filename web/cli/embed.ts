@@ -2,12 +2,12 @@ import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkGlb } from '../assets/check-glb.ts';
-import { readBody, readPoseSpaces } from '../assets/index.ts';
+import { readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
 import { FIGURES, type Listed } from '../figures/list.ts';
 import { type Options, theFile, theOutput, usageError, type Values, WRITES } from './arguments.ts';
 import { type Content, embedPage } from './embed-page.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
-import { naming, readModel } from './model.ts';
+import { formatOf, naming, readModel } from './model.ts';
 import { nearest } from './nearest.ts';
 import type { Run } from './run.ts';
 
@@ -67,18 +67,21 @@ function describeFigure({ listed, state }: NonNullable<ReturnType<typeof figureO
 async function describeModel(file: string, values: Values): Promise<Found> {
   if (values.state !== undefined) throw usageError('--state is for figures; a model has none.', 'Leave it out.');
   const glb = await readInput(file);
-  const { document, format } = await readModel(glb, file);
+  const format = formatOf(glb, file);
   if (format !== 'GLB') {
     throw new HandlebodyError('file-not-glb', {
       message: `"${file}" is ${format === 'OBJ' ? 'an OBJ' : 'a PLY'} model, and pages show GLB.`,
       remedy: 'Bake it with "handlebody bake", which makes a GLB of it, and embed that.',
     });
   }
-  refuseOutside(glb, file);
   try {
+    refuseOutside(glb);
+    const { document } = await readModel(glb, file);
     const baked = (await readBody(document)) !== undefined;
     // A body is dragged, though it have a face, too.
     const kind = !baked && readPoseSpaces(document).length > 0 ? 'pose-space' : 'handle-body';
+    // What has no surface is refused here, not by the page.
+    readMesh(document);
     const title = (values.title as string | undefined) ?? path.basename(file, path.extname(file));
     const element = { 'handle-body': 'a model to drag', 'pose-space': 'a model with a pose space' }[kind];
     return { content: { kind, glb, title, baked }, facts: { input: file, element: kind, baked }, line: element };
@@ -88,12 +91,12 @@ async function describeModel(file: string, values: Values): Promise<Found> {
 }
 
 /** A page that works offline fetches no picture. */
-function refuseOutside(glb: Uint8Array, file: string): void {
+function refuseOutside(glb: Uint8Array): void {
   const images = (checkGlb(glb).json.images ?? []) as readonly { readonly uri?: string }[];
   const index = images.findIndex(({ uri }) => uri !== undefined && !uri.startsWith('data:'));
   if (index < 0) return;
   throw new HandlebodyError('file-unsupported', {
-    message: `Image ${index} of "${file}" lies outside it, in "${images[index]?.uri?.slice(0, 60)}".`,
+    message: `Image ${index} of the file lies outside it, in "${images[index]?.uri?.slice(0, 60)}".`,
     remedy: 'Export the model as one .glb with its images inside.',
   });
 }

@@ -21,7 +21,7 @@ interface Model {
 }
 
 /** By its first bytes, or by its name for OBJ, which has no mark. */
-function formatOf(bytes: Uint8Array, name: string): ModelFormat {
+export function formatOf(bytes: Uint8Array, name: string): ModelFormat {
   const head = String.fromCharCode(...bytes.subarray(0, 4));
   if (head === 'glTF') return 'GLB';
   if (/^ply[\r\n]/.test(head)) return 'PLY';

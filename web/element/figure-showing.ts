@@ -11,7 +11,10 @@ interface FigureOptions {
   readonly state: string;
   readonly stage: HTMLElement;
   readonly signal: AbortSignal;
+  /** It is there, and says by itself how far it is. */
   readonly onFirst: () => void;
+  /** There is a picture. */
+  readonly onPicture: () => void;
   readonly onChange: (state: string) => void;
 }
 
@@ -26,7 +29,10 @@ const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The 
 
 let sheet: CSSStyleSheet | undefined;
 
-/** A figure in an element's shadow, ready or failed: it says by itself what went wrong. Throws where there is no such figure, or none comes. */
+/**
+ * A figure in an element's shadow, at rest, so that it has told its numbers, or failed: it says by itself what went wrong. Throws where there is
+ * no such figure, or none comes.
+ */
 export async function showFigure(name: string, options: FigureOptions): Promise<FigureShowing> {
   const { stage, signal, onChange } = options;
   const figure = (await parts.get(name)?.(undefined))?.default;
@@ -42,32 +48,38 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
   sheet ??= new CSSStyleSheet();
   if (sheet.cssRules.length === 0) sheet.replaceSync(FIGURE_STYLES);
   if (!root.adoptedStyleSheets.includes(sheet)) root.adoptedStyleSheets.push(sheet);
-  let known = '';
+  let [known, isAsked] = ['', false];
   const change = (state: string) => {
-    // What it begins with is no change.
-    if (known && state !== known) onChange(state);
-    known = state;
+    // What it begins with is no change; whoever asked for a state is told what came of it.
+    if (known && (isAsked || state !== known)) onChange(state);
+    [known, isAsked] = [state, false];
   };
   const live = new Live(figure, { solvers: { runtime, whole }, state: options.state, onChange: change });
   const frame = h('div', { class: 'figure-frame', 'data-coming': '' }, live.element);
   stage.replaceChildren(frame);
   options.onFirst();
-  await new Promise<void>((resolve) => {
-    const watcher = new MutationObserver(() => live.element.dataset.state !== 'loading' && end());
-    const end = () => {
-      watcher.disconnect();
-      resolve();
-    };
-    watcher.observe(live.element, { attributeFilter: ['data-state'] });
-    signal.addEventListener('abort', end, { once: true });
-  });
+  const until = (isSo: () => boolean) =>
+    new Promise<void>((resolve) => {
+      const watcher = new MutationObserver(() => isSo() && end());
+      const end = () => {
+        watcher.disconnect();
+        resolve();
+      };
+      watcher.observe(live.element, { attributeFilter: ['data-state', 'data-rest'] });
+      signal.addEventListener('abort', end, { once: true });
+      if (isSo()) end();
+    });
+  await until(() => live.element.dataset.state !== 'loading');
   delete frame.dataset.coming;
   stage.style.minHeight = '';
+  if (!signal.aborted) options.onPicture();
+  await until(() => live.element.dataset.rest === 'yes' || live.element.dataset.state === 'failed');
   return {
     get state() {
       return live.state;
     },
     set state(text) {
+      isAsked = true;
       live.state = text;
     },
     get told() {

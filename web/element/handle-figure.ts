@@ -7,7 +7,8 @@ import type { FigureShowing } from './figure-showing.ts';
  *
  * Attributes besides those of all elements: `name`, of a figure; `state`, one line of text as links and the event "change" have it;
  * `controls` and `caption`, whether these are shown beside the pictures.
- * Events: `load`, `error`, and `change` when the figure has come to rest in another state, whose detail is `{ state }`.
+ * Events: `load` when it has told its numbers, `error`, and `change` when the figure has come to rest in another state or in one that was asked
+ * for, whose detail is `{ state }`.
  */
 export class HandleFigureElement extends ElementBase {
   static override observedAttributes = [...ElementBase.observedAttributes, 'name', 'state', 'controls', 'caption'];
@@ -41,13 +42,17 @@ export class HandleFigureElement extends ElementBase {
   protected override async open(signal: AbortSignal): Promise<Showing> {
     this.progress.begin('Loading the figure…');
     const { showFigure } = await import('./figure-showing.ts');
-    const figure = await showFigure(this.name, {
-      state: this.state,
+    const { name, state } = this;
+    const figure = await showFigure(name, {
+      state,
       stage: this.stage,
       signal,
       onFirst: () => this.progress.end(),
+      onPicture: () => this.first(),
       onChange: (state) => this.dispatchEvent(new CustomEvent('change', { detail: { state } })),
     });
+    // Another state may have been asked for while it came.
+    if (this.#left !== undefined && this.#left !== state) figure.state = this.#left;
     this.#figure = figure;
     const dispose = () => {
       // Another one may have taken its place, whose state is its own.
@@ -59,7 +64,8 @@ export class HandleFigureElement extends ElementBase {
 
   protected override changed(attribute: string): void {
     if (attribute === 'name') {
-      this.#left = undefined;
+      // What is shown until the other one comes has a state of its own.
+      [this.#left, this.#figure] = [undefined, undefined];
       this.again();
     } else if (attribute === 'state') this.state = this.getAttribute('state') ?? '';
   }

@@ -14,8 +14,8 @@ const figure = h('handle-figure', { controls: true, caption: true, loading: 'eag
 
 function follow(): void {
   const [name = '', ...state] = location.hash.slice(1).split('&');
-  figure.setAttribute('state', state.join('&'));
   figure.setAttribute('name', name);
+  figure.setAttribute('state', state.join('&'));
 }
 
 /** For any page that listens, for learning platforms (LTI), and for iframe-resizer. */
