@@ -3,6 +3,9 @@ import { existsSync, readdirSync } from 'node:fs';
 import { at } from './paths.mjs';
 import { buildStandalone } from './standalone.mjs';
 
+/** What of the elements asks for what, in the built site. */
+export const ELEMENTS_MANIFEST = '.vite/elements.json';
+
 /** Whether there is any page to build. */
 export function hasPages() {
   return (
@@ -15,5 +18,5 @@ export function hasPages() {
 export async function buildSite() {
   const { build } = await import('vite');
   await build({ configFile: at('vite.config.ts'), logLevel: 'warn' });
-  await buildStandalone('build/site', { embed: true });
+  await buildStandalone('build/site', { embed: true, manifest: ELEMENTS_MANIFEST });
 }

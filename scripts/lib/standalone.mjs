@@ -5,9 +5,10 @@ import { at } from './paths.mjs';
 
 /**
  * @param {string} folder Where to, from the project's folder; what lies there stays.
- * @param {{ embed?: boolean }} [options] Whether embed.html, the page that others frame, comes with it.
+ * @param {{ embed?: boolean, manifest?: string }} [options] Whether embed.html, the page that others frame, comes with it; where Vite's
+ * list of what asks for what goes.
  */
-export async function buildStandalone(folder, { embed = false } = {}) {
+export async function buildStandalone(folder, { embed = false, manifest } = {}) {
   const { build } = await import('vite');
   await build({
     configFile: false,
@@ -21,11 +22,17 @@ export async function buildStandalone(folder, { embed = false } = {}) {
       emptyOutDir: false,
       target: 'es2022',
       modulePreload: false,
+      ...(manifest && { manifest }),
       chunkSizeWarningLimit: 1000,
       rolldownOptions: {
         input: { 'handlebody.standalone': at('web/element/index.ts'), ...(embed && { embed: at('web/embed/main.ts') }) },
         preserveEntrySignatures: 'strict',
-        output: { entryFileNames: '[name].js', chunkFileNames: 'standalone/[name]-[hash].js' },
+        output: {
+          entryFileNames: '[name].js',
+          chunkFileNames: 'standalone/[name]-[hash].js',
+          // In a chunk of its own: cached over our releases, and told apart by the size budget.
+          codeSplitting: { groups: [{ name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ }] },
+        },
       },
     },
   });
