@@ -1,50 +1,94 @@
-// The transfer that the studio needs until its model can be dragged, gzipped, models excluded, against its budget. Counted is every page,
-// script and style that the built studio can ask for: also what it loads lazily, unless LATER names it. So this is an upper bound.
+// What pages transfer until their model can be dragged, gzipped, models excluded, against its budgets: the studio, and a page with the
+// standalone script and one tag. Counted is every script and style that the built page can ask for: also what it loads lazily, unless
+// `later` names it. So these are upper bounds. What the package's entries hold is checked by `npm run check:package`.
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { at } from './lib/paths.mjs';
 import { runMain } from './lib/run.mjs';
+import { ELEMENTS_MANIFEST } from './lib/standalone.mjs';
 
 const SITE = at('build', 'site');
-const PAGE = 'studio/index.html';
-/** The smaller wasm may take 185 kB of it (.size-limit.json). */
-const BUDGET = { withThree: 405_000, withoutThree: 248_000 };
 
-/** Modules that are asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm. @type {RegExp[]} */
-const LATER = [/^worker\//];
+/** @typedef {{ file: string, name?: string, imports?: string[], dynamicImports?: string[], css?: string[], assets?: string[] }} Chunk */
+/** @typedef {Record<string, Chunk>} Manifest */
+/** @typedef {{ file: string, bytes: number }[]} Sizes */
 
-/** @typedef {{ file: string, src?: string, imports?: string[], dynamicImports?: string[], css?: string[], assets?: string[] }} Chunk */
+/** The smaller wasm may take 185 kB of each (.size-limit.json). */
+const PAGES = [
+  {
+    name: 'studio',
+    manifest: '.vite/manifest.json',
+    page: 'studio/index.html',
+    // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
+    later: [/^worker\//],
+    budget: { 'with three.js': 405_000, without: 248_000 },
+  },
+  {
+    name: 'one tag',
+    manifest: ELEMENTS_MANIFEST,
+    page: 'element/index.ts',
+    // What another tag shows, and what bakes.
+    later: [/^element\/(figure|pose)-showing/, /^figures\//, /^worker\//, /wasm\/ts\/index/, /^_bake-in-worker/],
+    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 40_000 },
+  },
+];
 
-/** All files that a page can ask for, from Vite's manifest, less those of LATER. @param {Record<string, Chunk>} manifest @param {string} entry */
-function filesOfPage(manifest, entry) {
-  const files = new Set([entry]);
-  const seen = new Set();
+/** All that a page can ask for, less `later`. @param {Manifest} manifest @param {string} entry @param {RegExp[]} later */
+function chunksOf(manifest, entry, later) {
+  /** @type {Map<string, Chunk>} */
+  const found = new Map();
   const visit = (/** @type {string} */ key) => {
     const chunk = manifest[key];
-    if (!chunk || seen.has(key) || LATER.some((name) => name.test(key))) return;
-    seen.add(key);
-    for (const file of [chunk.file, ...(chunk.css ?? []), ...(chunk.assets ?? [])])
-      if (/\.(m?js|css|wasm)$/.test(file)) files.add(file);
+    if (!chunk || found.has(key) || later.some((name) => name.test(key))) return;
+    found.set(key, chunk);
     for (const next of [...(chunk.imports ?? []), ...(chunk.dynamicImports ?? [])]) visit(next);
   };
   visit(entry);
-  return files;
+  return found;
+}
+
+/** @param {Iterable<Chunk>} chunks @returns {Sizes} */
+function sizesOf(chunks) {
+  const files = new Set([...chunks].flatMap(({ file, css = [], assets = [] }) => [file, ...css, ...assets]));
+  return [...files]
+    .filter((file) => /\.(m?js|css|wasm)$/.test(file))
+    .map((file) => ({ file, bytes: gzipSync(readFileSync(path.join(SITE, file)), { level: 9 }).length }))
+    .sort((a, b) => b.bytes - a.bytes);
+}
+
+const kB = (/** @type {number} */ bytes) => `${(bytes / 1000).toFixed(1)} kB`;
+
+/** Measures one page; whether it keeps its budget. @param {typeof PAGES[number]} page */
+function check({ name, manifest: file, page, later, budget }) {
+  /** @type {Manifest} */
+  const manifest = JSON.parse(readFileSync(path.join(SITE, file), 'utf8'));
+  const sizes = sizesOf(chunksOf(manifest, page, later).values());
+  const [runtime] = Object.entries(manifest).find(([, chunk]) => chunk.name === 'runtime' && !chunk.dynamicImports) ?? [];
+  const ofRuntime = new Set((runtime ? sizesOf(chunksOf(manifest, runtime, []).values()) : []).map((each) => each.file));
+  const sum = (/** @type {Sizes} */ list) => list.reduce((total, { bytes }) => total + bytes, 0);
+  const withoutThree = sizes.filter((each) => !/(^|\/)three-[^/]*\.js$/.test(each.file));
+  /** @type {Record<string, number>} */
+  const totals = {
+    'with three.js': sum(sizes),
+    without: sum(withoutThree),
+    'beyond three.js and the runtime': sum(withoutThree.filter((each) => !ofRuntime.has(each.file))),
+  };
+  for (const each of sizes) console.log(`${kB(each.bytes).padStart(10)}  ${each.file}`);
+  if (withoutThree.length === sizes.length) throw new Error(`${name}: three.js is in no chunk of its own.`);
+  let isKept = true;
+  for (const [what, most] of Object.entries(budget)) {
+    const total = totals[what] ?? Number.POSITIVE_INFINITY;
+    console.log(`${name}, gzipped, ${what}: ${kB(total)} (budget ${kB(most)})${total > most ? ': TOO MUCH' : ''}`);
+    if (total > most) isKept = false;
+  }
+  return isKept;
 }
 
 await runMain(async () => {
-  const manifestFile = path.join(SITE, '.vite', 'manifest.json');
-  if (!existsSync(manifestFile)) throw new Error('There is no built site to measure: run npm run build.');
-  const files = filesOfPage(JSON.parse(readFileSync(manifestFile, 'utf8')), PAGE);
-  const sizes = [...files].map((file) => ({ file, bytes: gzipSync(readFileSync(path.join(SITE, file)), { level: 9 }).length }));
-  const sum = (/** @type {typeof sizes} */ list) => list.reduce((total, { bytes }) => total + bytes, 0);
-  const totals = { withThree: sum(sizes), withoutThree: sum(sizes.filter(({ file }) => !/(^|\/)three-[^/]*\.js$/.test(file))) };
-  const kB = (/** @type {number} */ bytes) => `${(bytes / 1000).toFixed(1)} kB`;
-  for (const { file, bytes } of sizes.sort((a, b) => b.bytes - a.bytes)) console.log(`${kB(bytes).padStart(10)}  ${file}`);
-  const over = /** @type {(keyof typeof BUDGET)[]} */ (Object.keys(BUDGET)).filter((name) => totals[name] > BUDGET[name]);
-  console.log(
-    `studio, gzipped: ${kB(totals.withThree)} with three.js (budget ${kB(BUDGET.withThree)}), ${kB(totals.withoutThree)} without (${kB(BUDGET.withoutThree)})`,
-  );
-  if (over.length > 0) console.error('The studio is over its budget.');
-  return over.length === 0 ? 0 : 1;
+  if (!PAGES.every(({ manifest }) => existsSync(path.join(SITE, manifest))))
+    throw new Error('There is no built site to measure: run npm run build.');
+  const kept = PAGES.map(check);
+  if (kept.includes(false)) console.error('A page is over its budget.');
+  return kept.includes(false) ? 1 : 0;
 });

@@ -142,13 +142,21 @@ const FIGURE_STYLES = [
   ...['bar', 'palette', 'chart', 'points', 'field'].map((name) => `web/styles/${name}.css`),
   ...['panel', 'card', 'figure', 'shape'].map((name) => `web/figures/kit/${name}.css`),
 ];
-write(
-  'web/element/styles.generated.ts',
-  `// Generated from web/styles and web/element/element.css by scripts/generate.mjs.
-export const STYLES = ${JSON.stringify(stylesOf([...ELEMENT_STYLES, 'web/element/pad.css', 'web/element/element.css']))};
-export const FIGURE_STYLES = ${JSON.stringify(stylesOf([...FIGURE_STYLES, 'web/element/figure.css']))};
+/** @type {[file: string, name: string, styles: string[]][]} */
+const SHEETS = [
+  ['web/element/styles.generated.ts', 'STYLES', [...ELEMENT_STYLES, 'web/element/element.css']],
+  // Apart: fetched with what they are for.
+  ['web/element/pad-styles.generated.ts', 'PAD_STYLES', ['web/element/pad.css']],
+  ['web/element/figure-styles.generated.ts', 'FIGURE_STYLES', [...FIGURE_STYLES, 'web/element/figure.css']],
+];
+for (const [file, name, styles] of SHEETS) {
+  write(
+    file,
+    `// Generated from ${styles.join(', ')} by scripts/generate.mjs.
+export const ${name}: string = ${JSON.stringify(stylesOf(styles))};
 `,
-);
+  );
+}
 
 /** @type {[from: string, to: string][]} */
 const MODULES = [
@@ -162,7 +170,7 @@ for (const [file, name] of MODULES) {
     name,
     `// Generated from ${file} by scripts/generate.mjs: raw deflate, base64.
 export const WASM_BYTES = ${wasm.length};
-export const WASM_DEFLATED_BASE64 =
+export const WASM_DEFLATED_BASE64: string =
   '${deflateRawSync(wasm, { level: 9 }).toString('base64')}';
 `,
   );
@@ -192,6 +200,6 @@ async function bundled(/** @type {string} */ entry) {
 write(
   'web/worker/blob-worker.generated.ts',
   `// Generated from web/worker/blob-worker.ts by scripts/generate.mjs.
-export const BLOB_WORKER = ${JSON.stringify(await bundled('web/worker/blob-worker.ts'))};
+export const BLOB_WORKER: string = ${JSON.stringify(await bundled('web/worker/blob-worker.ts'))};
 `,
 );

@@ -12,11 +12,12 @@ export function newDocument() {
 /**
  * @param {Document} document
  * @param {'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4'} type
- * @param {import('@gltf-transform/core').TypedArray} array
+ * @param {Float32Array | Uint32Array | Uint16Array | Uint8Array} array
  */
 export function accessor(document, type, array) {
   const buffer = document.getRoot().listBuffers()[0] ?? document.createBuffer();
-  return document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
+  const own = /** @type {import('@gltf-transform/core').TypedArray} */ (array);
+  return document.createAccessor().setType(type).setArray(own).setBuffer(buffer);
 }
 
 /**

@@ -26,7 +26,8 @@ export async function ensureInstalled() {
   if (problem) throw new Error(problem);
   if (!installIsStale()) return;
   console.log('Installing packages (npm ci) …');
-  await npm(['ci', '--include=dev', '--no-audit', '--no-fund', '--loglevel=error']);
+  // Without the lifecycle scripts, of which ours builds, and no dependency needs its own.
+  await npm(['ci', '--include=dev', '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel=error']);
 }
 
 /** Runs npm: the one that started us if any. @param {string[]} args @param {import('node:child_process').SpawnOptions} [options] */

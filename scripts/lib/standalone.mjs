@@ -4,6 +4,9 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { at } from './paths.mjs';
 
+/** Where Vite's list of which file asks for which lies. */
+export const ELEMENTS_MANIFEST = 'standalone/manifest.json';
+
 /** What both builds have alike. @type {import('vite').InlineConfig} */
 const COMMON = { configFile: false, root: at('web'), publicDir: false, base: './', logLevel: 'warn' };
 /** @satisfies {import('vite').BuildEnvironmentOptions} */
@@ -22,12 +25,17 @@ export async function buildStandalone(folder, { embed = false } = {}) {
       ...BUILD,
       outDir: at(folder),
       // Which file asks for which: `handlebody embed` takes only those that a page needs.
-      manifest: 'standalone/manifest.json',
+      manifest: ELEMENTS_MANIFEST,
       chunkSizeWarningLimit: 1000,
       rolldownOptions: {
         input: { 'handlebody.standalone': at('web/element/index.ts'), ...(embed && { embed: at('web/embed/main.ts') }) },
         preserveEntrySignatures: 'strict',
-        output: { entryFileNames: '[name].js', chunkFileNames: 'standalone/[name]-[hash].js' },
+        output: {
+          entryFileNames: '[name].js',
+          chunkFileNames: 'standalone/[name]-[hash].js',
+          // In a chunk of its own: cached over our releases, and told apart by the size budget.
+          codeSplitting: { groups: [{ name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ }] },
+        },
       },
     },
   });

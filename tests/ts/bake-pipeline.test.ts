@@ -30,8 +30,10 @@ const PIXEL = Uint8Array.from(
 function richDocument(): Document {
   const document = new Document();
   const buffer = document.createBuffer();
-  const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4' | 'MAT4', array: Float32Array | Uint16Array | Uint8Array) =>
-    document.createAccessor('', buffer).setType(type).setArray(array);
+  const accessor = (
+    type: 'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4' | 'MAT4',
+    array: Float32Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint8Array<ArrayBuffer>,
+  ) => document.createAccessor('', buffer).setType(type).setArray(array);
   const clearcoat = document.createExtension(KHRMaterialsClearcoat).createClearcoat().setClearcoatFactor(0.5);
   const turned = document.createExtension(KHRTextureTransform).createTransform().setRotation(0.3);
   const texture = document.createTexture('paint').setImage(PIXEL).setMimeType('image/png');

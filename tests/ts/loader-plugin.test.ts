@@ -28,7 +28,8 @@ function makeScene(): Document {
   const buffer = document.createBuffer();
   const scene = document.createScene();
   document.getRoot().setDefaultScene(scene);
-  const vec3 = (array: Float32Array | Int16Array) => document.createAccessor('', buffer).setType('VEC3').setArray(array);
+  const vec3 = (array: Float32Array<ArrayBuffer> | Int16Array<ArrayBuffer>) =>
+    document.createAccessor('', buffer).setType('VEC3').setArray(array);
   const tetrahedron = (x: number) =>
     document
       .createPrimitive()

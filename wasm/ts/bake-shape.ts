@@ -135,7 +135,7 @@ function prepareVolume(volume: VoxelVolume): PreparedShape {
   return { mesh: volumeSurface(volume, voxels), cloud: false, voxels };
 }
 
-function* insideVoxels(inside: Uint8Array): Generator<number> {
+function* insideVoxels(inside: ArrayLike<number>): Generator<number> {
   for (let c = 0; c < inside.length; c++) if (inside[c] !== 0) yield c;
 }
 

@@ -1,6 +1,8 @@
 import type { Exports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
+import type { TypedArray } from './types.ts';
 
 /** What lies beyond the ends: nothing, zeros, the ends' own values (no slope), or the other end. */
 export type GridBoundary = 'free' | 'dirichlet' | 'neumann' | 'periodic';
@@ -100,15 +102,14 @@ export class DiscreteGreen {
   }
 
   /** The curve (size numbers) by eliminating everything that is not a sample. */
-  solveGrid(out: Float64Array = new Float64Array(this.size)): Float64Array {
+  solveGrid<T extends TypedArray = Float64Array>(out?: T): T {
     return this.#solve(out, undefined);
   }
 
   /** The curve by radial functions: G's columns at the samples and the null space, times `weights` (sampleCount + nullity). */
-  solveRadial(
-    out: Float64Array = new Float64Array(this.size),
-    weights: Float64Array = new Float64Array(this.sampleCount + this.nullity),
-  ): Float64Array {
+  solveRadial(out?: undefined, weights?: TypedArray): Float64Array;
+  solveRadial<T extends TypedArray>(out: T, weights?: TypedArray): T;
+  solveRadial(out?: TypedArray, weights: TypedArray = new Float64Array(this.sampleCount + this.nullity)): TypedArray {
     return this.#solve(out, weights);
   }
 
@@ -148,7 +149,8 @@ export class DiscreteGreen {
     return matrix;
   }
 
-  #solve(out: Float64Array, weights: Float64Array | undefined): Float64Array {
+  #solve<T extends TypedArray>(given: T | undefined, weights: TypedArray | undefined): T {
+    const out: TypedArray = given ?? new Float64Array(this.size);
     const handle = this.#alive();
     checkRoom('curve', out, this.size);
     if (weights) checkRoom('weights', weights, this.sampleCount + this.nullity);
@@ -161,7 +163,7 @@ export class DiscreteGreen {
       out.set(this.#heap.f64(curve, this.size));
       weights?.set(this.#heap.f64(at, weights.length));
     });
-    return out;
+    return out as T;
   }
 }
 
@@ -193,7 +195,8 @@ function checkOptions(size: number, order: number, boundary: string, samples: Ar
   }
 }
 
-function checkRoom(what: string, out: Float64Array, length: number): void {
+function checkRoom(what: string, out: TypedArray, length: number): void {
+  checkFractions(out);
   if (out.length === length) return;
   throw new HandlebodyError('invalid-shape', {
     message: `There is room for ${out.length} numbers of the ${what}, of which there are ${length}.`,

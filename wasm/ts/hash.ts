@@ -2,7 +2,7 @@
  * A 64-bit hash, after FNV-1a, of positions rounded to float: it ties baked distances to the mesh that they were computed for, however
  * the file that carries both was stored. Not a defence against forgery.
  */
-export function hashPositions(positions: Float32Array | Float64Array): string {
+export function hashPositions(positions: ArrayLike<number>): string {
   const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
   return hashWords([new Uint32Array(floats.buffer, floats.byteOffset, floats.length)]);
 }

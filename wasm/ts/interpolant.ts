@@ -1,6 +1,8 @@
 import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import type { Heap, Scratch } from './heap.ts';
+import type { TypedArray } from './types.ts';
 
 /** Points with values, as every scattered interpolant takes them. */
 export interface ScatteredData {
@@ -78,17 +80,17 @@ export abstract class Interpolant {
   }
 
   /** Values (q × outputs) at queries (q × dimension). */
-  evaluate(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+  evaluate<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
     return this.#ask('evaluate', queries, this.outputs, out);
   }
 
   /** Gradients (q × outputs × dimension) at queries (q × dimension); NaN where there is none. */
-  gradient(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+  gradient<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
     return this.#ask('gradient', queries, this.outputs * this.dimension, out);
   }
 
   /** The points' weights (q × size) at queries (q × dimension): a value is the sum of the points' values times their weights. */
-  weights(queries: ArrayLike<number>, out?: Float64Array): Float64Array {
+  weights<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
     return this.#ask('weights', queries, this.size, out);
   }
 
@@ -114,16 +116,17 @@ export abstract class Interpolant {
     });
   }
 
-  #ask(
+  #ask<T extends TypedArray>(
     what: 'evaluate' | 'gradient' | 'weights',
     queries: ArrayLike<number>,
     width: number,
-    given: Float64Array | undefined,
-  ): Float64Array {
+    given: T | undefined,
+  ): T {
     const { handle, heap, dimension } = this;
     const count = queries.length / dimension;
     if (!Number.isInteger(count)) throw notRows('queries', queries.length, dimension);
-    const out = given ?? new Float64Array(count * width);
+    const out: TypedArray = given ?? new Float64Array(count * width);
+    checkFractions(out);
     if (out.length !== count * width) {
       throw new HandlebodyError('invalid-shape', {
         message: `${what}() got room for ${out.length} numbers; ${count} queries make ${count * width}.`,
@@ -145,7 +148,7 @@ export abstract class Interpolant {
       heap.kernels.throwFailure();
       out.set(heap.f64(to, batch * width), first * width);
     }
-    return out;
+    return out as T;
   }
 
   #reserve(bytes: number): void {

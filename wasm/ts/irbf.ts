@@ -1,10 +1,11 @@
 import { LAYOUT } from './abi.generated.ts';
 import { checkMeshArrays } from './check-mesh.ts';
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
-import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport } from './types.ts';
+import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
 export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
@@ -171,7 +172,7 @@ export class Irbf {
    * Normals to start from in `deform`, n×3: authored ones keep their creases. Without them normals are area-weighted averages of the
    * triangles around each welded vertex.
    */
-  setRestNormals(normals: Float32Array): void {
+  setRestNormals(normals: TypedArray): void {
     this.#alive();
     this.#checkLength('rest normals', normals.length);
     this.#heap.f32(this.#restNormals, normals.length).set(normals);
@@ -179,11 +180,15 @@ export class Irbf {
   }
 
   /** Writes the deformed positions, and normals if asked, of all vertices as stored (n×3). Allocates nothing. */
-  deform(positions: Float32Array, normals?: Float32Array): void {
+  deform(positions: TypedArray, normals?: TypedArray): void {
     const heap = this.#heap;
     const irbf = this.#alive();
     this.#checkLength('positions', positions.length);
-    if (normals) this.#checkLength('normals', normals.length);
+    checkFractions(positions);
+    if (normals) {
+      this.#checkLength('normals', normals.length);
+      checkFractions(normals);
+    }
     const rest = normals && this.#hasRestNormals ? this.#restNormals : 0;
     heap.check((e) => e.hb_irbf_deform(irbf, this.#positions, rest, normals ? this.#normals : 0));
     positions.set(heap.f32(this.#positions, positions.length));
@@ -191,7 +196,9 @@ export class Irbf {
   }
 
   /** The deformation at any points of space (k×3, model units), in double precision. */
-  evaluate(points: ArrayLike<number>, out: Float64Array = new Float64Array(points.length)): Float64Array {
+  evaluate<T extends TypedArray = Float64Array>(points: ArrayLike<number>, given?: T): T {
+    const out: TypedArray = given ?? new Float64Array(points.length);
+    checkFractions(out);
     const heap = this.#heap;
     const irbf = this.#alive();
     if (points.length % 3 !== 0 || out.length !== points.length) {
@@ -205,7 +212,7 @@ export class Irbf {
       runKernel(heap, () => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
       out.set(heap.f64(to, out.length));
     });
-    return out;
+    return out as T;
   }
 
   /**

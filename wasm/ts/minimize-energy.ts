@@ -3,6 +3,7 @@ import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { Skin } from './skin.ts';
+import type { TypedArray } from './types.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
 /**
@@ -82,7 +83,7 @@ export class EnergyMinimizer extends Skin {
   }
 
   /** Writes the deformed positions, n×2. Allocates nothing but the report. */
-  deform(out: Float32Array): MinimizeEnergyReport {
+  deform(out: TypedArray): MinimizeEnergyReport {
     const { heap } = this;
     this.move(out, (skin, to) => heap.check((e) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report)));
     const { energy, iterations } = LAYOUT.hb_minimizer_report;

@@ -1,5 +1,7 @@
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
+import type { TypedArray } from './types.ts';
 
 /** `cardinal`: radial basis functions with a polynomial tail. `normalized`: weights closer to [0, 1], but favors isolated examples. */
 export type PoseSpaceMethod = 'cardinal' | 'normalized';
@@ -127,7 +129,9 @@ export class PoseSpace {
   }
 
   /** The examples' weights at a point of the pose space, in the order of `names`. They sum to 1 and may be slightly negative. */
-  weights(at: ArrayLike<number>, out: Float64Array = new Float64Array(this.names.length)): Float64Array {
+  weights<T extends TypedArray = Float64Array>(at: ArrayLike<number>, given?: T): T {
+    const out: TypedArray = given ?? new Float64Array(this.names.length);
+    checkFractions(out);
     if (out.length !== this.names.length) {
       throw new HandlebodyError('invalid-shape', {
         message: `weights() got room for ${out.length} numbers; there are ${this.names.length} examples.`,
@@ -136,16 +140,13 @@ export class PoseSpace {
     }
     this.#solve(at);
     out.set(this.#weights);
-    return out;
+    return out as T;
   }
 
   /** The shape at a point of the pose space: the sum of the examples' shapes by their weights. */
-  evaluate(at: ArrayLike<number>): Float64Array;
-  evaluate<T extends Float32Array | Float64Array>(at: ArrayLike<number>, out: T): T;
-  evaluate(
-    at: ArrayLike<number>,
-    out: Float32Array | Float64Array = new Float64Array(this.shapeLength),
-  ): Float32Array | Float64Array {
+  evaluate<T extends TypedArray = Float64Array>(at: ArrayLike<number>, given?: T): T {
+    const out: TypedArray = given ?? new Float64Array(this.shapeLength);
+    checkFractions(out);
     if (out.length !== this.shapeLength) {
       throw new HandlebodyError('invalid-shape', {
         message: `evaluate() got room for ${out.length} numbers; the shapes have ${this.shapeLength}.`,
@@ -161,7 +162,7 @@ export class PoseSpace {
       for (let k = 0; k < count; k++, s++) sum += (weights[k] as number) * (shapes[s] as number);
       out[i] = sum;
     }
-    return out;
+    return out as T;
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */

@@ -1,6 +1,8 @@
 import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import type { Heap, Scratch } from './heap.ts';
+import type { TypedArray } from './types.ts';
 
 /** A shape that moves by blending: rest positions, and the weight of each handle at each of them. */
 export interface SkinOptions {
@@ -78,7 +80,7 @@ export abstract class Skin {
   }
 
   /** @internal Moves the vertices by what `transforms` says now: `run` gets the object and where positions go. */
-  protected move(given: Float32Array | undefined, run: (handle: number, out: number) => void): Float32Array {
+  protected move<T extends TypedArray>(given: T | undefined, run: (handle: number, out: number) => void): T {
     const { heap, transforms } = this;
     const handle = this.#handle;
     if (handle === 0) {
@@ -88,7 +90,8 @@ export abstract class Skin {
       });
     }
     const length = this.vertexCount * this.dimension;
-    const out = given ?? new Float32Array(length);
+    const out: TypedArray = given ?? new Float32Array(length);
+    checkFractions(out);
     if (out.length !== length) {
       throw new HandlebodyError('invalid-shape', {
         message: `deform() got room for ${out.length} numbers; the shape has ${length}.`,
@@ -99,7 +102,7 @@ export abstract class Skin {
     heap.f64(at, transforms.length).set(transforms);
     run(handle, this.#out);
     out.set(heap.f32(this.#out, length));
-    return out;
+    return out as T;
   }
 }
 
@@ -132,7 +135,7 @@ export abstract class BlendedSkin extends Skin {
   }
 
   /** Writes the deformed positions, n × dimension, and returns them. */
-  deform(out?: Float32Array): Float32Array {
+  deform<T extends TypedArray = Float32Array>(out?: T): T {
     return this.move(out, (skin, to) => this.heap.check((e) => e.hb_skin_deform(skin, to)));
   }
 }

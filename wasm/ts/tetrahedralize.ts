@@ -1,8 +1,9 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
+import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
 import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
-import type { Mesh } from './types.ts';
+import type { Mesh, TypedArray } from './types.ts';
 
 export interface TetrahedralizeOptions {
   /** Voxels along the longest side of the surface's box, 4 to 256. Limbs closer than a voxel merge. */
@@ -32,7 +33,7 @@ export class Tetrahedra implements SimplexMesh {
   }
 
   /** Interpolates values at the tetrahedra's vertices (n×k) to the surface's vertices (k numbers each), linearly in each tetrahedron. */
-  sample(values: ArrayLike<number>, out?: Float64Array): Float64Array {
+  sample<T extends TypedArray = Float64Array>(values: ArrayLike<number>, out?: T): T {
     const count = this.positions.length / 3;
     const width = values.length / count;
     if (!Number.isInteger(width) || width === 0) {
@@ -42,7 +43,8 @@ export class Tetrahedra implements SimplexMesh {
       });
     }
     const rows = this.corners.length / 4;
-    const result = out ?? new Float64Array(rows * width);
+    const result: TypedArray = out ?? new Float64Array(rows * width);
+    checkFractions(result);
     if (result.length !== rows * width) {
       throw new HandlebodyError('invalid-shape', {
         message: `There is room for ${result.length} numbers; the surface's vertices take ${rows * width}.`,
@@ -56,7 +58,7 @@ export class Tetrahedra implements SimplexMesh {
       const part = this.coordinates[k] as number;
       for (let j = 0; j < width; j++) result[to + j] = (result[to + j] as number) + part * (values[from + j] as number);
     }
-    return result;
+    return result as T;
   }
 }
 

@@ -6,21 +6,33 @@ import type { KernelFunction, KernelName } from './kernels.ts';
 
 export type { WarningCode } from './abi.generated.ts';
 
+/** Numbers in an array of any kind, three.js' own among them. */
+export type TypedArray =
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
+  | Float32Array
+  | Float64Array;
+
 /** A triangle mesh in scene space, Y up. `positions` n×3; `triangles` m×3 indices, counter-clockwise seen from outside. */
 export interface Mesh {
-  readonly positions: Float32Array | Float64Array;
-  readonly triangles: Uint16Array | Uint32Array;
+  readonly positions: TypedArray;
+  readonly triangles: TypedArray;
 }
 
 /** A solid of tetrahedra (m×4 indices, in either order of corners). All of its vertices deform; they are shared by number. */
 export interface TetrahedralMesh {
-  readonly positions: Float32Array | Float64Array;
-  readonly tetrahedra: Uint16Array | Uint32Array;
+  readonly positions: TypedArray;
+  readonly tetrahedra: TypedArray;
 }
 
 /** A dense sample of a surface or of a solid, without triangles: dense enough that a voxel grid over it shows no wide gaps. */
 export interface PointCloud {
-  readonly positions: Float32Array | Float64Array;
+  readonly positions: TypedArray;
 }
 
 /** A solid of cubes: voxel (i, j, k), whose center is origin + spacing·(i, j, k), is inside where `inside[i + nx·(j + ny·k)]` is not 0. */
@@ -28,7 +40,7 @@ export interface VoxelVolume {
   readonly dimensions: readonly [number, number, number];
   readonly spacing: number;
   readonly origin: readonly [number, number, number];
-  readonly inside: Uint8Array;
+  readonly inside: TypedArray;
 }
 
 /** What can be baked. */

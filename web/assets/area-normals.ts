@@ -1,5 +1,5 @@
 /** Smooth normals for files that have none: the area-weighted mean of the triangles around each vertex, of unit length. */
-export function areaNormals(positions: Float32Array, triangles: Uint16Array | Uint32Array): Float32Array {
+export function areaNormals(positions: Float32Array, triangles: ArrayLike<number>): Float32Array {
   const sums = new Float64Array(positions.length);
   const at = (corner: number, axis: number) => positions[(triangles[corner] as number) * 3 + axis] as number;
   for (let t = 0; t < triangles.length; t += 3) {

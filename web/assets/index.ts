@@ -1,3 +1,5 @@
+/// <reference lib="esnext.float16" preserve="true" />
+// glTF-Transform's own declarations name Float16Array, which a reader's library may not have.
 /** GLB files to typed arrays and back, by glTF-Transform, and OBJ and PLY to typed arrays: "handlebody/gltf-transform". Knows no three.js. */
 export { type BodyAccessorName, BodyExtension, BodyProperty, type IBodyProperty } from './body-extension.ts';
 export { checkGlb, type GlbParts } from './check-glb.ts';

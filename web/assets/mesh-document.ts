@@ -1,17 +1,18 @@
 import { Document } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { TypedArray } from '../../wasm/ts/types.ts';
 import { areaNormals } from './area-normals.ts';
 
 /** A mesh of typed arrays, as the solver takes it and `readObj` and `readPly` give it, to be written as glTF. */
 export interface GlbMesh {
   /** n×3. */
-  readonly positions: Float32Array | Float64Array;
+  readonly positions: TypedArray;
   /** m×3, counter-clockwise seen from outside; none for a cloud of points. */
-  readonly triangles?: Uint16Array | Uint32Array;
+  readonly triangles?: TypedArray;
   /** n×3, of unit length; where a surface has none they are made smooth. */
-  readonly normals?: Float32Array | undefined;
+  readonly normals?: TypedArray | undefined;
   /** n×2, from the top left. */
-  readonly uvs?: Float32Array | undefined;
+  readonly uvs?: TypedArray | undefined;
 }
 
 /**
@@ -42,8 +43,8 @@ export function meshDocument({ positions, triangles = new Uint32Array(), normals
     primitive.setIndices(accessor('SCALAR', indices));
   }
   if (normals || triangles.length > 0)
-    primitive.setAttribute('NORMAL', accessor('VEC3', normals?.slice() ?? areaNormals(floats, triangles)));
-  if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', uvs.slice()));
+    primitive.setAttribute('NORMAL', accessor('VEC3', normals ? Float32Array.from(normals) : areaNormals(floats, triangles)));
+  if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', Float32Array.from(uvs)));
   const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
   document.getRoot().setDefaultScene(document.createScene().addChild(node));
   return document;
@@ -65,7 +66,7 @@ function check({ positions, triangles, normals, uvs }: Required<GlbMesh>): void 
     });
   }
   for (const numbers of [positions, normals ?? [], uvs ?? []]) {
-    const bad = numbers.findIndex((x) => !Number.isFinite(x));
+    const bad = numbers.findIndex((x: number) => !Number.isFinite(x));
     if (bad === -1) continue;
     const vertex = Math.floor(bad / (numbers === uvs ? 2 : 3));
     throw new HandlebodyError('mesh-not-finite', {
@@ -74,7 +75,7 @@ function check({ positions, triangles, normals, uvs }: Required<GlbMesh>): void 
       culprit: { kind: 'vertex', index: vertex },
     });
   }
-  const beyond = triangles.findIndex((vertex) => vertex >= count);
+  const beyond = triangles.findIndex((vertex: number) => !(Number.isInteger(vertex) && vertex >= 0 && vertex < count));
   if (beyond === -1) return;
   const triangle = Math.floor(beyond / 3);
   throw new HandlebodyError('mesh-index-out-of-range', {

@@ -1,4 +1,4 @@
-import type { Document } from '@gltf-transform/core';
+import type { Document, TypedArray } from '@gltf-transform/core';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { encodeBody } from './body-codec.ts';
 import { type BodyAccessorName, BodyExtension, type BodyProperty } from './body-extension.ts';
@@ -34,7 +34,9 @@ export async function attachBody(document: Document, body: BodyData): Promise<Bo
     .setHeader({ ...header, arraysHash });
   for (const [name, { type }] of Object.entries(BODY_ACCESSORS)) {
     const accessor = document.createAccessor(`${HANDLEBODY_BODY}.${name}`, buffer).setType(type);
-    property.setAccessor(name as BodyAccessorName, accessor.setArray(arrays[name as BodyAccessorName]));
+    // None of them is shared between threads: the encoder made them, or the bake.
+    const array = arrays[name as BodyAccessorName] as TypedArray;
+    property.setAccessor(name as BodyAccessorName, accessor.setArray(array));
   }
   root.setExtension(HANDLEBODY_BODY, property);
   return property;

@@ -2,7 +2,7 @@
  * How many pieces a surface has: triangles that share a corner, by position and not by number, hang together. Vertices of no triangle
  * count for nothing.
  */
-export function countComponents(positions: Float32Array | Float64Array, triangles: Uint16Array | Uint32Array): number {
+export function countComponents(positions: ArrayLike<number>, triangles: ArrayLike<number>): number {
   const parent = weld(positions);
   const find = (vertex: number): number => {
     let v = vertex;
@@ -18,12 +18,12 @@ export function countComponents(positions: Float32Array | Float64Array, triangle
     parent[find(triangles[t + 2] as number)] = find(first);
   }
   const roots = new Set<number>();
-  for (const vertex of triangles) roots.add(find(vertex));
+  for (let k = 0; k < triangles.length; k++) roots.add(find(triangles[k] as number));
   return roots.size;
 }
 
 /** For each vertex the first one at its place. */
-function weld(positions: Float32Array | Float64Array): Uint32Array {
+function weld(positions: ArrayLike<number>): Uint32Array {
   const count = positions.length / 3;
   const first = new Uint32Array(count);
   const mask = 2 ** Math.ceil(Math.log2(count * 2 + 1)) - 1;

@@ -53,7 +53,7 @@ function meshOf(document: Document): Mesh {
   }
 }
 
-function boundsOf(positions: Float32Array | Float64Array): { low: number[]; high: number[] } | undefined {
+function boundsOf(positions: ArrayLike<number>): { low: number[]; high: number[] } | undefined {
   if (positions.length === 0) return undefined;
   const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
   for (let i = 0; i < positions.length; i++) {

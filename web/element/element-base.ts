@@ -3,6 +3,7 @@ import { explain } from '../ui/explain.ts';
 import { isAbort } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
 import { Progress } from '../ui/progress.ts';
+import { adopt } from './adopt.ts';
 import { STYLES } from './styles.generated.ts';
 
 /** HTMLElement; on a server, where there is none, importing the module is safe and defines nothing. */
@@ -27,8 +28,6 @@ export interface ElementError {
   readonly message: string;
   readonly remedy: string;
 }
-
-let sheet: CSSStyleSheet | undefined;
 
 /**
  * What the elements have in common: they load when they come near the window, sleep when they leave it, show a poster, their progress and,
@@ -60,8 +59,7 @@ export abstract class ElementBase extends PageElement {
   constructor() {
     super();
     const root = this.attachShadow({ mode: 'open', delegatesFocus: false });
-    sheet ??= makeSheet();
-    root.adoptedStyleSheets = [sheet];
+    adopt(root, STYLES);
     this.stage = h('div', { class: 'stage' });
     const bar = h('div', { class: 'progress', hidden: true });
     this.progress = new Progress(bar);
@@ -232,12 +230,6 @@ export abstract class ElementBase extends PageElement {
     const reveal = this.#isHeld ? [button('Show', () => this.dismissPoster(), 'button')] : [];
     this.#poster.replaceChildren(h('slot', { name: 'poster' }, ...picture), ...reveal);
   }
-}
-
-function makeSheet(): CSSStyleSheet {
-  const made = new CSSStyleSheet();
-  made.replaceSync(STYLES);
-  return made;
 }
 
 function cancelled(): PageError {

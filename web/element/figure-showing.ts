@@ -4,8 +4,9 @@ import { FIGURES } from '../figures/list.ts';
 import { h } from '../ui/dom.ts';
 import { lazy } from '../ui/lazy.ts';
 import { PageError } from '../ui/page-error.ts';
+import { adopt } from './adopt.ts';
+import { FIGURE_STYLES } from './figure-styles.generated.ts';
 import { runtime, whole } from './runtime.ts';
-import { FIGURE_STYLES } from './styles.generated.ts';
 
 interface FigureOptions {
   readonly state: string;
@@ -27,8 +28,6 @@ export interface FigureShowing {
 
 const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The figure “${title}”`)]));
 
-let sheet: CSSStyleSheet | undefined;
-
 /**
  * A figure in an element's shadow, at rest, so that it has told its numbers, or failed: it says by itself what went wrong. Throws where there is
  * no such figure, or none comes.
@@ -44,10 +43,7 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
     );
   }
   signal.throwIfAborted();
-  const root = stage.getRootNode() as ShadowRoot;
-  sheet ??= new CSSStyleSheet();
-  if (sheet.cssRules.length === 0) sheet.replaceSync(FIGURE_STYLES);
-  if (!root.adoptedStyleSheets.includes(sheet)) root.adoptedStyleSheets.push(sheet);
+  adopt(stage.getRootNode() as ShadowRoot, FIGURE_STYLES);
   let [known, isAsked] = ['', false];
   const change = (state: string) => {
     // What it begins with is no change; whoever asked for a state is told what came of it.

@@ -3,7 +3,9 @@ import { type PoseDriver, poseDriver } from '../three/pose-driver.ts';
 import { h } from '../ui/dom.ts';
 import { reducedMotion } from '../ui/motion.ts';
 import { PageError } from '../ui/page-error.ts';
+import { adopt } from './adopt.ts';
 import type { ModelOptions, ModelShowing } from './model-element.ts';
+import { PAD_STYLES } from './pad-styles.generated.ts';
 import { type NamedPlace, placeIn } from './place-text.ts';
 import { PosePlane } from './pose-plane.ts';
 import { runtime } from './runtime.ts';
@@ -91,6 +93,7 @@ export class PoseShowing implements ModelShowing {
 
   constructor(model: SharedModel, space: LoadedPoseSpace, options: PoseOptions) {
     [this.#model, this.#space, this.#options] = [model, space, options];
+    adopt(options.stage.getRootNode() as ShadowRoot, PAD_STYLES);
     this.#to = this.#at = space.dimensions.map(() => 0);
     this.#frame = new ViewFrame(options.stage, options);
     this.#plane = new PosePlane(space, (x, y) => this.#steer(x, y));

@@ -69,7 +69,7 @@ export class DeformedGeometry {
    *
    * Throws 'invalid-shape' when an array has another length.
    */
-  update(positions: Float32Array, normals?: Float32Array): void {
+  update(positions: ArrayLike<number>, normals?: ArrayLike<number>): void {
     checkLength('positions', positions.length, this.vertexCount);
     if (normals) checkLength('normals', normals.length, this.vertexCount);
     for (const part of this.#parts) {
@@ -162,7 +162,10 @@ function morphReach(geometry: BufferGeometry): number {
   return sum;
 }
 
-function writePositions({ mesh, start, count, geometry, positions, inverse, reach, bounds }: LivePart, from: Float32Array): void {
+function writePositions(
+  { mesh, start, count, geometry, positions, inverse, reach, bounds }: LivePart,
+  from: ArrayLike<number>,
+): void {
   const to = positions.array as Float32Array;
   const { min, max } = bounds.box.makeEmpty();
   for (let i = 0, k = start * 3; i < count * 3; i += 3, k += 3) {
@@ -190,7 +193,7 @@ function writePositions({ mesh, start, count, geometry, positions, inverse, reac
   if (isSkinned(mesh)) forgetBounds(mesh);
 }
 
-function writeNormals({ start, count, geometry, positions, tangents, inverse, matrix }: LivePart, from: Float32Array): void {
+function writeNormals({ start, count, geometry, positions, tangents, inverse, matrix }: LivePart, from: ArrayLike<number>): void {
   let normals = geometry.getAttribute('normal') as BufferAttribute | undefined;
   if (!normals) {
     normals = new BufferAttribute(new Float32Array(count * 3), 3).setUsage(DynamicDrawUsage);
