@@ -9,8 +9,8 @@ import { references } from '../scripts/lib/imports.mjs';
 const root = fileURLToPath(new URL('..', import.meta.url));
 const read = (file: string) => readFileSync(path.join(root, file), 'utf8');
 
-/** What the map says nothing of: these want a bundler, the tags have a script of their own. */
-const LEFT_OUT = ['./element', './gltf-transform', './bake-worker'];
+/** What the map says nothing of: these want a bundler, the tags and the widget have scripts of their own. */
+const LEFT_OUT = ['./element', './standalone', './anywidget', './gltf-transform', './bake-worker'];
 /** Loaded to write a baked body, which of these entries none does. */
 const FOR_WRITING = 'meshoptimizer/encoder';
 

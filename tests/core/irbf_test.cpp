@@ -272,35 +272,3 @@ TEST_CASE("meshes that cannot be baked are refused by name") {
   options.resolution = 5000;
   CHECK(code(box.positions, box.triangles, options) == HB_ERROR_INVALID_OPTION);
 }
-
-TEST_CASE("deformations that share a body deform as those of its own do, and outlive each other") {
-  const Body body = bar();
-  const Points handles = corners(body);
-  for (const FramePrecision precision : {FramePrecision::fixed, FramePrecision::floating}) {
-    IrbfOptions options;
-    options.precision = precision;
-    auto alone = prepared(body, handles, options);
-    bend(*alone, handles, 0.5);
-    REQUIRE(alone->solve({}));
-    const Points bent = deformed(*alone);
-
-    auto first = prepared(body, handles, options);
-    Irbf second(first->prepared());
-    CHECK(second.handle_count() == 0);
-    CHECK((deformed(second) - body.positions).cwiseAbs().maxCoeff() < 1e-6);
-    REQUIRE(second.set_handles(handles.topRows(2), {HandleKind::position, HandleKind::position}));
-    bend(*first, handles, 0.5);
-    REQUIRE(first->solve({}));
-    CHECK(deformed(*first) == bent);
-    CHECK((deformed(second) - body.positions).cwiseAbs().maxCoeff() < 1e-6);
-
-    first.reset();
-    REQUIRE(second.set_handles(handles, std::vector<HandleKind>(8, HandleKind::position)));
-    bend(second, handles, 0.5);
-    REQUIRE(second.solve({}));
-    CHECK(deformed(second) == bent);
-    const auto quality = second.quality(Tetrahedra(0, 4));
-    REQUIRE(quality);
-    CHECK(quality->volume_ratio == doctest::Approx(alone->quality(Tetrahedra(0, 4))->volume_ratio));
-  }
-}

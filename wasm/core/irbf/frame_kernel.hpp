@@ -24,7 +24,8 @@ class FrameKernel {
    *  row's sum of them can overflow: the largest keeps 12 bits or more. */
   FrameKernel(const PointsF& positions, const MatrixF& matrix, FramePrecision precision);
 
-  /** The coefficients of one product, in the kernel's own form. Whoever multiplies brings their own, so that the kernel can be shared. */
+  /** The coefficients of one product, in the kernel's own form. Whoever multiplies brings their own, so that the kernel can be
+   * shared. */
   struct Scratch {
     PointsF floats;
     std::vector<std::int32_t> packed;  // pairs × 3: two coefficients each

@@ -41,7 +41,8 @@ Irbf::Irbf(std::shared_ptr<const PreparedBody> body)
 // ---- handles ----------------------------------------------------------------------------------------------------------------
 
 Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<HandleKind>& kinds) {
-  auto constraints = HandleConstraints::create(prepared_->body, prepared_->basis, prepared_->surface, handles, kinds, prepared_->structure_radius);
+  auto constraints =
+      HandleConstraints::create(prepared_->body, prepared_->basis, prepared_->surface, handles, kinds, prepared_->structure_radius);
   if (!constraints) return constraints.error();
   const Index repeated = constraints->repeated();
   if (prepared_->options.constraints == ConstraintKind::hard && repeated >= 0) {
@@ -51,7 +52,8 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   }
   ReducedSystem system;
   if (!kinds.empty()) {
-    auto made = make_reduced_system(prepared_->edge_rows, prepared_->gram, constraints->rows(), prepared_->options.anchor_weight, prepared_->options.constraints);
+    auto made = make_reduced_system(prepared_->edge_rows, prepared_->gram, constraints->rows(), prepared_->options.anchor_weight,
+                                    prepared_->options.constraints);
     if (!made) return made.error();
     system = std::move(*made);
   }
@@ -96,7 +98,8 @@ Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   if (handle_count() == 0) {
     return Error(HB_ERROR_HANDLES_MISSING, {"There are no handles to solve for."}, {"Set at least one handle first."});
   }
-  if (auto read = constraints_.read_targets(targets_.data(), prepared_->body.normalization, work_.targets); !read) return read.error();
+  if (auto read = constraints_.read_targets(targets_.data(), prepared_->body.normalization, work_.targets); !read)
+    return read.error();
 
   // Rigid motions do not change the energy, so the solve happens in a frame that is carried along rigidly with the handles: the
   // unknown there is only the deformation, and it is exactly zero when the handles move rigidly.
@@ -191,7 +194,8 @@ void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
 }
 
 Result<Points> Irbf::evaluate(const ConstPoints& points) const {
-  const Points solver = (points.rowwise() - prepared_->body.normalization.center.transpose()) / prepared_->body.normalization.diagonal;
+  const Points solver =
+      (points.rowwise() - prepared_->body.normalization.center.transpose()) / prepared_->body.normalization.diagonal;
   InteriorSamples samples;
   for (Index i = 0; i < solver.rows(); ++i) samples.add(prepared_->body.domain, solver.row(i).transpose());
   Matrix phi = Matrix::Zero(solver.rows(), prepared_->basis.size());
@@ -210,7 +214,8 @@ Result<Quality> Irbf::quality(const Eigen::Ref<const Tetrahedra>& tetrahedra) {
     prepared_->voxel_quality = std::move(*made);
   }
   Quality quality = prepared_->voxel_quality->measure(linear_, translation_, coefficients_, diagonal);
-  const double inside = static_cast<double>(prepared_->body.domain.size()) * std::exp(3 * std::log(prepared_->body.domain.grid().spacing * diagonal));
+  const double inside =
+      static_cast<double>(prepared_->body.domain.size()) * std::exp(3 * std::log(prepared_->body.domain.grid().spacing * diagonal));
   const double at_rest = enclosed_volume(prepared_->body.positions, prepared_->body.triangles);
   PointsF moved(vertex_count(), 3);
   deform(moved.data(), nullptr, nullptr);

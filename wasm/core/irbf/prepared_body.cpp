@@ -32,7 +32,8 @@ Result<Done> check_options(const IrbfOptions& options) {
 
 }  // namespace
 
-PreparedBody::PreparedBody(Body from, const IrbfOptions& given) : options(given), body(std::move(from)), basis(body, given.kernel) {}
+PreparedBody::PreparedBody(Body from, const IrbfOptions& given)
+    : options(given), body(std::move(from)), basis(body, given.kernel) {}
 
 Result<std::shared_ptr<const PreparedBody>> PreparedBody::create(Body body, const IrbfOptions& options) {
   if (auto checked = check_options(options); !checked) return checked.error();

@@ -82,7 +82,8 @@ Error too_large(Index voxels, double bytes) {
 
 }  // namespace
 
-Result<std::unique_ptr<const VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis, const ColumnRanges& on_surface) {
+Result<std::unique_ptr<const VoxelQuality>> VoxelQuality::create(const Body& body, const Basis& basis,
+                                                                 const ColumnRanges& on_surface) {
   const VoxelDomain& domain = body.domain;
   const Grid& grid = domain.grid();
   // Bytes of the grid's corner numbers; per voxel, six tetrahedra and at most eight corners of its own.
