@@ -29,7 +29,11 @@ await runMain(async () => {
   const found = Object.entries(results).filter(([, { notRun }]) => notRun === undefined);
   const known = { ...JSON.parse(readFileSync(LOG, 'utf8')), ...Object.fromEntries(found) };
   const log = Object.fromEntries(Object.keys(all).flatMap((name) => (known[name] ? [[name, known[name]]] : [])));
-  writeFileSync(LOG, `${JSON.stringify(log, null, 2)}\n`);
+  // Rows of numbers on one line, as the formatter has them.
+  const text = JSON.stringify(log, null, 2).replace(/\[[\d.,\s]+\]/g, (row) =>
+    row.replace(/\s+/g, ' ').replace(/\[ | \]/g, (end) => end.trim()),
+  );
+  writeFileSync(LOG, `${text}\n`);
   const { passed, failed, notRun } = countResults(results);
   console.log(`${passed} passed, ${failed} failed${notRun > 0 ? `, ${notRun} not run` : ''}`);
   return failed === 0 ? 0 : 1;

@@ -112,6 +112,8 @@ function useDemo(name) {
     }
     moved.push(await dragElement(visit, 'handle-body'));
     await expectFigure(visit, 'handle-figure');
+    // A bar that sticks to the window's top is to be at the page's.
+    await page.evaluate(() => scrollTo(0, 0));
     if (screenshots) await page.screenshot({ path: path.join(screenshots, `${name}.png`), fullPage: true });
     return moved;
   };

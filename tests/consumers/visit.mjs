@@ -72,7 +72,7 @@ export class Visit {
   arrival(ask, rest) {
     return this.wait('The vertex at its target', async () => {
       const { vertex, target } = await ask();
-      return distance(target, rest) > 0.1 && distance(vertex, target) < 0.03 && distance(vertex, rest);
+      return distance(target, rest) > 0.05 && distance(vertex, target) < 0.03 && distance(vertex, rest);
     });
   }
 

@@ -1,4 +1,5 @@
 project = "Sphinx"
+html_show_copyright = False
 extensions = ["myst_parser"]
 exclude_patterns = ["_build"]
 
