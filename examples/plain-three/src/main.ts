@@ -26,7 +26,7 @@ scene.add(gltf.scene);
   using dog = draggable(gltf.scene, body, { hb, camera, container: stage });
   stage.addEventListener('dblclick', (event) => {
     const hit = dog.pick(event);
-    if (hit) dog.setHandles([...dog.handles, { vertex: hit.vertex, name: 'Your own' }]);
+    if (hit) dog.addHandle({ vertex: hit.vertex, name: 'Your own' });
   });
   renderer.setAnimationLoop(() => {
     dog.update();

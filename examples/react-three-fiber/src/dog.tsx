@@ -36,7 +36,7 @@ export function Dog({ onPaw }: { onPaw: (place: Vector3) => void }) {
       object={gltf.scene}
       onDoubleClick={(event: Parameters<Draggable['pick']>[0]) => {
         const hit = dog.current?.pick(event);
-        if (hit) dog.current?.setHandles([...dog.current.handles, { vertex: hit.vertex, name: 'Your own' }]);
+        if (hit) dog.current?.addHandle({ vertex: hit.vertex, name: 'Your own' });
       }}
     />
   );
