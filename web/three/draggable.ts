@@ -12,7 +12,7 @@ import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
-import { HandleOverlay } from './handles.ts';
+import { HandleOverlay } from './handle-overlay.ts';
 import { LiveBody } from './live-body.ts';
 import { nearestVertex } from './nearest-vertex.ts';
 import type { SurfacePick } from './surface-pick.ts';

@@ -1,6 +1,6 @@
 /** Run by Chromium: handles over a box, in the page or elsewhere; see handle-style.test.ts. */
 import { PerspectiveCamera } from 'three';
-import { HandleOverlay } from '../../../web/three/handles.ts';
+import { HandleOverlay } from '../../../web/three/handle-overlay.ts';
 
 /** Puts a box with two handles at the end of an element, of whatever document that is. */
 export function show(into: Element | ShadowRoot, unstyled = false): HandleOverlay {
