@@ -75,6 +75,33 @@ describe('draggable', () => {
     drag.dispose();
   });
 
+  it('adds a handle where its point is now, and the others keep their targets; or leaves all as it was', () => {
+    const drag = make();
+    drag.setTarget(0, drag.target(0).add(new Vector3(0.3, 0.1, 0)));
+    settle(drag);
+    const [to, before] = [drag.target(0), drag.vertex(70)];
+    expect(before.distanceTo(new Vector3().fromArray(body.mesh.positions, 3 * 70))).toBeGreaterThan(0.02);
+    drag.addHandle({ vertex: 70, name: 'Side' });
+    settle(drag);
+    expect([drag.handles.length, drag.overlay.count]).toEqual([7, 7]);
+    expect(drag.target(0)).toEqual(to);
+    expect(drag.target(6).distanceTo(before)).toBeLessThan(1e-6);
+    expect(drag.vertex(70).distanceTo(before)).toBeLessThan(0.01);
+
+    drag.addHandle({ at: [0, 0.1, 0] });
+    settle(drag);
+    expect(drag.target(7).distanceTo(new Vector3(0, 0.1, 0))).toBeGreaterThan(0.001);
+    for (const refused of [{ at: [9, 9, 9] as const }, { vertex: 1e6 }]) {
+      expect(() => drag.addHandle(refused)).toThrow(expect.objectContaining({ name: 'HandlebodyError' }));
+      expect(drag.handles.length).toBe(8);
+      expect(drag.target(0)).toEqual(to);
+    }
+    drag.reset();
+    settle(drag);
+    expect(drag.vertex(70).distanceTo(new Vector3().fromArray(body.mesh.positions, 3 * 70))).toBeLessThan(0.01);
+    drag.dispose();
+  });
+
   it('puts the object’s geometry back, and gives back the solver’s memory', () => {
     const object = model();
     const [mesh] = object.children as [Mesh];

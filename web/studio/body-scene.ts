@@ -1,14 +1,13 @@
-import { type Object3D, Vector3 } from 'three';
+import { type Object3D, Raycaster, Vector2, Vector3 } from 'three';
 import type { Handle } from '../../wasm/ts/runtime.ts';
 import type { Step, View } from '../stage/view.ts';
 import type { DeformedGeometry } from '../three/deformed-geometry.ts';
-import { HandleOverlay } from '../three/handles.ts';
+import { BareHandles } from '../three/handles.ts';
 import type { LiveBody, Point, Round } from '../three/live-body.ts';
 import { h } from '../ui/dom.ts';
 import { ease, reducedMotion } from '../ui/motion.ts';
 import { BodyPanel, type Steerable } from './body-panel.ts';
 import type { HandleOrder } from './handles-json.ts';
-import { pickVertex } from './pick.ts';
 import type { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
 import { Tether } from './tether.ts';
@@ -45,7 +44,7 @@ export class BodyScene implements StudioScene, Steerable {
   readonly grounded = true;
   readonly #options: BodySceneOptions;
   readonly #body: LiveBody;
-  readonly #overlay: HandleOverlay;
+  readonly #overlay: BareHandles;
   readonly #panel: BodyPanel;
   readonly #tether: Tether;
   #points: readonly Point[] = [];
@@ -60,10 +59,9 @@ export class BodyScene implements StudioScene, Steerable {
     this.#options = options;
     this.#body = body;
     this.object = options.object;
-    this.#overlay = new HandleOverlay({
+    this.#overlay = new BareHandles({
       camera: view.camera,
       container: options.overlay,
-      unstyled: true,
       step: body.data.normalization.diagonal * 0.01,
       onMove: (i, position) => this.moveTo(i, position),
       onSelect: (i) => this.#chosen(i),
@@ -113,9 +111,10 @@ export class BodyScene implements StudioScene, Steerable {
 
   /** Makes the vertex at this place of the view (−1 to 1; the middle by default) a handle. Says whether there was a surface. */
   addAt(x = 0, y = 0): boolean {
-    const { camera } = this.#options.view;
-    const direction = new Vector3(x, y, 0.5).unproject(camera).sub(camera.position).normalize();
-    const vertex = pickVertex(this.#body.positions, this.#body.data.mesh.triangles, camera.position, direction);
+    const { view, shown } = this.#options;
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(x, y), view.camera);
+    const vertex = shown.pick(ray)?.vertex;
     if (vertex === undefined) return false;
     const added = this.#points.filter((point) => point.removable).length;
     const name = `${added > 0 || this.#points.length > 0 ? 'Added' : 'Handle'} ${added + 1}`;

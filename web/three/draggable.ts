@@ -12,7 +12,7 @@ import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
-import { HandleOverlay } from './handles.ts';
+import { HandleOverlay } from './handle-overlay.ts';
 import { LiveBody } from './live-body.ts';
 import { nearestVertex } from './nearest-vertex.ts';
 import type { SurfacePick } from './surface-pick.ts';
@@ -126,15 +126,17 @@ export class Draggable {
 
   /** Other handles, at rest. The former ones stay where these are refused. Throws what `Irbf.setHandles` throws. */
   setHandles(handles: readonly DraggableHandle[]): void {
-    const rest = handles.map((handle) => this.#live.rest(handle));
-    this.#live.hold(handles, rest);
-    [this.#handles, this.#rest] = [handles, rest];
-    const { positions } = this.#live.data.mesh;
-    this.#carriers = handles.map((handle, i) =>
-      'vertex' in handle ? handle.vertex : nearestVertex(positions, rest[i] as Vector3),
+    this.#hold(
+      handles,
+      handles.map((handle) => this.#live.rest(handle)),
     );
-    this.overlay.set(handles.map(({ name }, i) => ({ name: name ?? `Handle ${i + 1}`, position: [0, 0, 0] })));
-    this.#wake();
+  }
+
+  /** One more handle, on its point as that is now; the others keep their targets. Throws what `Irbf.setHandles` throws. */
+  addHandle(handle: DraggableHandle): void {
+    const targets = this.#handles.map((_, i) => this.target(i));
+    // A vertex that is not there is for the solver to refuse.
+    this.#hold([...this.#handles, handle], [...targets, this.#live.image(handle)]);
   }
 
   /** Where handle `i` is to go, in the object's space. */
@@ -190,7 +192,7 @@ export class Draggable {
    * ```ts
    * canvas.addEventListener('dblclick', (event) => {
    *   const hit = dog.pick(event);
-   *   if (hit) dog.setHandles([...dog.handles, { vertex: hit.vertex }]);
+   *   if (hit) dog.addHandle({ vertex: hit.vertex });
    * });
    * ```
    */
@@ -214,6 +216,18 @@ export class Draggable {
 
   [Symbol.dispose](): void {
     this.dispose();
+  }
+
+  #hold(handles: readonly DraggableHandle[], targets: readonly Vector3[]): void {
+    this.#live.hold(handles, targets);
+    const { positions } = this.#live.data.mesh;
+    this.#handles = handles;
+    this.#rest = handles.map((handle) => this.#live.rest(handle));
+    this.#carriers = handles.map((handle, i) =>
+      'vertex' in handle ? handle.vertex : nearestVertex(positions, this.#rest[i] as Vector3),
+    );
+    this.overlay.set(handles.map(({ name }, i) => ({ name: name ?? `Handle ${i + 1}`, position: [0, 0, 0] })));
+    this.#wake();
   }
 
   /** Brings a handle to a place in the world. */

@@ -1,7 +1,6 @@
 import { type OrthographicCamera, type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
 import { draggable, type Grip, letGo } from '../ui/drag.ts';
 import { putHandle } from '../ui/put-handle.ts';
-import { adoptHandleStyle } from './handle-style.ts';
 
 /** One point that can be dragged. */
 export interface HandlePoint {
@@ -12,12 +11,10 @@ export interface HandlePoint {
   readonly removable?: boolean;
 }
 
-export interface HandleOverlayOptions {
+export interface BareHandlesOptions {
   readonly camera: PerspectiveCamera | OrthographicCamera;
   /** A positioned element that covers exactly the canvas; the handles become buttons inside it. */
   readonly container: HTMLElement;
-  /** The page styles the handles by itself, from nothing. */
-  readonly unstyled?: boolean;
   /** World units that an arrow key moves a handle by. Shift moves a fifth of it, Page keys ten times it. */
   readonly step?: number;
   /** A handle was moved, by pointer or by keyboard. The vector is reused: copy what you keep. */
@@ -43,25 +40,13 @@ interface Item {
  * Page Up and Page Down coarsely up and down, + and − toward and away (so do Alt and the up and down arrows), Esc takes a move back,
  * Home puts a handle back, Delete removes or puts back. One that lies outside the view stands at the rim.
  *
- * They come with a style that any rule of the page's overrides, see `HANDLE_STYLE`: class `handle`, and the attributes `aria-current` (chosen),
- * `data-dragging`, `data-away` (on the far side), `data-right` (so far right that a label belongs on its left), `data-low` (so far down
- * that a label belongs above it), `data-outside` (at the rim: to be hidden, but by `opacity`, until it has the focus).
- *
- * Its places are the world's, a solver's targets the object's own: `draggable` does all of this for a baked body.
- *
- * ```ts
- * const handles = new HandleOverlay({
- *   camera,
- *   container,
- *   onMove: (i, place) => object.worldToLocal(place.clone()).toArray(irbf.targets, i * 10),
- * });
- * handles.set([{ name: 'Nose', position: object.localToWorld(new Vector3(0, 1, 2)).toArray() }]);
- * handles.update(); // after each render
- * ```
+ * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side), `data-right`
+ * (so far right that a label belongs on its left), `data-low` (so far down that a label belongs above it), `data-outside` (at the rim:
+ * to be hidden, but by `opacity`, until it has the focus). `HandleOverlay` brings a style along.
  */
-export class HandleOverlay {
+export class BareHandles {
   step: number;
-  readonly #options: HandleOverlayOptions;
+  readonly #options: BareHandlesOptions;
   readonly #items: Item[] = [];
   readonly #ray = new Raycaster();
   readonly #plane = new Plane();
@@ -71,11 +56,9 @@ export class HandleOverlay {
   #dragged = -1;
   #selected = -1;
   #enabled = true;
-  #styled: boolean;
 
-  constructor(options: HandleOverlayOptions) {
+  constructor(options: BareHandlesOptions) {
     this.#options = options;
-    this.#styled = options.unstyled ?? false;
     this.step = options.step ?? 0.02;
   }
 
@@ -160,7 +143,6 @@ export class HandleOverlay {
   /** Puts the buttons where their points are on the screen. Call it after the camera or a handle has moved. */
   update(): void {
     const { camera, container } = this.#options;
-    if (!this.#styled) this.#styled = adoptHandleStyle(container);
     const [width, height] = [container.clientWidth, container.clientHeight];
     for (const { button, position } of this.#items) {
       const behind = this.#axis.copy(position).applyMatrix4(camera.matrixWorldInverse).z > 0 && 'isPerspectiveCamera' in camera;

@@ -7,8 +7,9 @@ export { DeformedGeometry } from './deformed-geometry.ts';
 export { DRAGGABLE_DEFAULTS, Draggable, type DraggableHandle, type DraggableOptions, draggable } from './draggable.ts';
 export { embeddedTextures } from './embedded-textures.ts';
 export { meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
+export { HandleOverlay, type HandleOverlayOptions } from './handle-overlay.ts';
 export { HANDLE_STYLE } from './handle-style.ts';
-export { HandleOverlay, type HandleOverlayOptions, type HandlePoint } from './handles.ts';
+export { BareHandles, type BareHandlesOptions, type HandlePoint } from './handles.ts';
 export {
   type HandlebodyData,
   HandlebodyGLTFPlugin,

@@ -71,6 +71,11 @@ export class LiveBody {
     return out.fromArray(this.positions, index * 3);
   }
 
+  /** Where the point of a handle is now, whether it is held or not. */
+  image(handle: Handle, out = new Vector3()): Vector3 {
+    return 'at' in handle ? out.fromArray(this.#irbf.evaluate(handle.at)) : this.vertex(handle.vertex, out);
+  }
+
   /** Where handle `i` is to go. */
   target(i: number, out = new Vector3()): Vector3 {
     return out.fromArray(this.#irbf.targets, i * TARGET);

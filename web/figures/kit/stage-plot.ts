@@ -3,7 +3,7 @@ import { cameraTools } from '../../stage/camera-tools.ts';
 import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
 import { View } from '../../stage/view.ts';
-import { HandleOverlay } from '../../three/handles.ts';
+import { BareHandles } from '../../three/handles.ts';
 import { h } from '../../ui/dom.ts';
 import { noteIn } from '../../ui/note.ts';
 import { ColorMap } from './color-map.ts';
@@ -68,7 +68,7 @@ class Stage<S> {
   readonly element: HTMLElement;
   readonly #kit: Kit<S>;
   readonly #view: View;
-  readonly #overlay: HandleOverlay;
+  readonly #overlay: BareHandles;
   #group = new Group();
   #surface: Surface | undefined;
   #balls: InstancedMesh | undefined;
@@ -92,10 +92,9 @@ class Stage<S> {
     this.#view = new View(canvas, viewport, sharedEasel());
     this.element = h('div', { class: 'stage' }, viewport, cameraTools(this.#view, viewport), note);
     this.#view.onInterrupted = noteIn(note);
-    this.#overlay = new HandleOverlay({
+    this.#overlay = new BareHandles({
       camera: this.#view.camera,
       container,
-      unstyled: true,
       onMove: (i, { x, y, z }) => this.#handles[i]?.move(x, y, z),
       onReset: (i) => this.#handles[i]?.reset(),
     });
