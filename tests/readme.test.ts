@@ -8,7 +8,14 @@ const root = fileURLToPath(new URL('..', import.meta.url));
 const folder = path.join(root, 'build', 'readme');
 const text = (file: string) => readFileSync(path.join(root, file), 'utf8');
 
-const PAGES = ['README.md', 'wasm/ts/README.md', 'web/cli/README.md', 'tests/bench/README.md', 'CONTRIBUTING.md'];
+const PAGES = [
+  'README.md',
+  'wasm/ts/README.md',
+  'web/cli/README.md',
+  'web/embed/README.md',
+  'tests/bench/README.md',
+  'CONTRIBUTING.md',
+];
 
 /** Every TypeScript block of the README and of the library's page, as a module that hands out its results. */
 const examples = [

@@ -14,7 +14,7 @@ export function homepage() {
 }
 
 /** What oEmbed 1.0 wants to know of a figure. @param {{ id: string, title: string }} figure @param {string} site */
-export function oembedOf({ id, title }, site) {
+function oembedOf({ id, title }, site) {
   const src = `${site}embed.html#${id}`;
   const { width, height } = SIZE;
   const words = title.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');

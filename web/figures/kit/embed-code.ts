@@ -11,6 +11,9 @@ interface Embedded {
   readonly height: number;
 }
 
+/** Pixels that embed.html leaves free above and below. */
+const MARGINS = 8;
+
 /** Shows what to write into a page of one's own, as the figure is now: a frame, or the element. */
 export function offerEmbed(figure: Embedded): void {
   const close = () => sheet.hidePopover();
@@ -30,7 +33,7 @@ export function offerEmbed(figure: Embedded): void {
 
 function frameOf({ site, name, title, state, height }: Embedded): string {
   const src = `${site}embed.html#${name}&${state}`;
-  return h('iframe', { src, title, width: '100%', height, style: 'border: 0', loading: 'lazy' }).outerHTML;
+  return h('iframe', { src, title, width: '100%', height: height + MARGINS, style: 'border: 0', loading: 'lazy' }).outerHTML;
 }
 
 function elementOf({ site, name, state }: Embedded): string {
@@ -42,7 +45,7 @@ function elementOf({ site, name, state }: Embedded): string {
 
 /** Words, the code, and a button that copies it. */
 function sample(words: string, code: string): HTMLElement[] {
-  const field = h('textarea', { class: 'code', readonly: true, rows: 4, spellcheck: 'false', 'aria-label': words });
+  const field = h('textarea', { class: 'code', readonly: true, rows: 6, spellcheck: 'false', 'aria-label': words });
   field.value = code;
   const copy = button('Copy', async () => {
     try {
