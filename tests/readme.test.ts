@@ -14,6 +14,7 @@ const PAGES = [
   'docs/recipes/README.md',
   'wasm/ts/README.md',
   'web/cli/README.md',
+  'web/embed/README.md',
   'tests/bench/README.md',
   'CONTRIBUTING.md',
 ];

@@ -39,7 +39,10 @@ export async function buildStandalone(folder, { embed = false } = {}) {
       },
     },
   });
-  writeFileSync(path.join(at(folder), 'handlebody.anywidget.js'), await inOneFile('web/element/anywidget.ts'));
+  // It is passed on alone: under these licenses.
+  const notices = ['LICENSE', 'THIRD_PARTY_NOTICES.md'].map((name) => readFileSync(at(name), 'utf8').trim()).join('\n\n');
+  const widget = await inOneFile('web/element/anywidget.ts');
+  writeFileSync(path.join(at(folder), 'handlebody.anywidget.js'), `/*!\n${notices.replaceAll('*/', '* /')}\n*/\n${widget}`);
   if (!embed) return;
   const page = readFileSync(at('web', 'embed.html'), 'utf8');
   writeFileSync(path.join(at(folder), 'embed.html'), page.replace('./embed/main.ts', './embed.js'));

@@ -167,3 +167,9 @@ it('bakes in a worker though nothing lies beside its script', async () => {
   expect(workers.map((url) => url.slice(0, 5))).toEqual(['blob:']);
   await soon(() => trait(page, 'told')).toContainEqual(['jump near the farthest sphere', expect.any(Number)]);
 });
+
+it('has its licenses with it', () => {
+  const [notices = ''] = TEXT().split('*/');
+  expect(notices).toMatch(/^\/\*!\nMIT License/);
+  expect(notices).toContain('three.js authors');
+});

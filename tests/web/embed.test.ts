@@ -1,6 +1,7 @@
 /** One figure in the frame of somebody else's page. */
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, inject, it, onTestFinished } from 'vitest';
+import type { HandleFigureElement } from '../../web/element/index.ts';
 import { otherPage } from './support/other-site.ts';
 import { launch, soon } from './support/studio.ts';
 
@@ -68,6 +69,49 @@ it('opens at the state of its address, writes it, follows it, and lets the page 
   await page.mouse.move(box.x + 200, box.y + 150);
   await page.mouse.wheel(0, 150);
   await soon(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
+});
+
+it('another name begins with its own state, though another figure was shown before', async () => {
+  const page = await course('course-12&v1&narrow');
+  await ready(page);
+  await page.frames()[1]?.evaluate(() => {
+    location.hash = '#course-20&v1&own-scales';
+  });
+  const frame = page.frameLocator('iframe');
+  await frame.locator('[data-figure=course-20][data-state=ready][data-rest=yes]').waitFor();
+  expect(await frame.locator('.presets [aria-pressed=true]').count()).toBe(1);
+  expect(await page.frames()[1]?.evaluate(() => (document.querySelector('handle-figure') as HandleFigureElement).state)).toBe(
+    'v1&own-scales',
+  );
+  expect(await frame.locator('.notice').isVisible()).toBe(false);
+});
+
+it('a state of a newer version shows the preset and says so; a name that is none says which there are', async () => {
+  const page = await course('course-12&v99&power=3');
+  await ready(page);
+  const frame = page.frameLocator('iframe');
+  expect(await frame.locator('.notice').textContent()).toMatch(/newer version/);
+  expect(await frame.locator('.presets [aria-pressed=true]').textContent()).toBe('Fig. 12');
+  await page.frames()[1]?.evaluate(() => {
+    location.hash = '#corse-12';
+  });
+  const told = frame.locator('handle-figure [role=alert].message');
+  await soon(() => told.textContent()).toMatch(/^There is no figure “corse-12”\..*course-12, course-20/);
+  await soon(() => overflow(page)).toBe(0);
+  expect(await told.evaluate((line) => line.checkVisibility())).toBe(true);
+});
+
+it('a wide one is whole: nothing of it is cut off', async () => {
+  const page = await course('course-12');
+  await page.locator('iframe').evaluate((frame) => {
+    frame.style.width = '1000px';
+  });
+  await ready(page);
+  const [figure, foot] = await Promise.all(
+    ['handle-figure', '.figure-foot'].map((name) => page.frameLocator('iframe').locator(name).boundingBox()),
+  );
+  const end = (box: typeof figure) => (box?.y ?? 0) + (box?.height ?? 0);
+  expect(end(foot ?? null)).toBeLessThanOrEqual(end(figure ?? null) + 0.5);
 });
 
 it('works in a frame without an origin', async () => {

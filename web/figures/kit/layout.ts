@@ -12,6 +12,8 @@ interface Wishes {
   turnTo(side: number): void;
   reset(): void;
   save(kind: 'svg' | 'png'): void;
+  /** How to have it in a page of one's own, where the page knows. */
+  embed?(): void;
 }
 
 let nextSides = 1;
@@ -55,6 +57,7 @@ export class Layout {
       button('Reset', wishes.reset, 'button small quiet'),
       button('SVG', () => wishes.save('svg'), 'button small quiet'),
       button('PNG', () => wishes.save('png'), 'button small quiet'),
+      ...(wishes.embed ? [button('Embed', wishes.embed, 'button small quiet')] : []),
     );
     const name = `sides-${nextSides++}`;
     const inputs = (sides?.options ?? []).map((_, side) =>

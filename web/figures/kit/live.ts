@@ -7,6 +7,7 @@ import { isAbort } from '../../ui/messages.ts';
 import { PageError } from '../../ui/page-error.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControls, partsOf } from './controls.ts';
+import { offerEmbed } from './embed-code.ts';
 import type { Figure, Kit, Told, Wait, Work } from './figure.ts';
 import { Layout } from './layout.ts';
 import { Panels } from './panels.ts';
@@ -32,6 +33,8 @@ interface LiveOptions {
   readonly state?: string;
   /** The page's address for such a line; left out where the page is somebody else's. */
   readonly address?: (text: string) => string;
+  /** Address of the site that has embed.html and the elements' script, with a slash at the end; left out where that is not known. */
+  readonly site?: string;
   /** The state has changed and come to rest. A step back should lead to before it where it is another preset. */
   readonly onChange?: (text: string, preset: boolean) => void;
 }
@@ -93,12 +96,17 @@ export class Live<C extends Channels, M extends Disposable> {
     });
     this.#kit = this.#makeKit();
     this.#panels = new Panels(Object.values(figure.panels));
+    const { site } = options;
     this.#layout = new Layout(figure, this.#controls.element, this.#panels, {
       begin: (id) => this.#begin(id),
       turnTo: (side) => this.#turnTo(side),
       reset: () => this.reset(),
       save: (kind) =>
         void savePicture(this.#layout.pictures, figure.id, kind).catch((error: unknown) => this.#layout.trouble.tell(error)),
+      ...(site !== undefined && {
+        embed: () =>
+          offerEmbed({ site, name: figure.id, title: this.#layout.title, state: this.state, height: this.element.offsetHeight }),
+      }),
     });
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;

@@ -7,6 +7,9 @@ import { byId, h } from '../../ui/dom.ts';
 import { lazy } from '../../ui/lazy.ts';
 import { Trouble } from '../../ui/trouble.ts';
 
+/** Where embed.html is. */
+const site = new URL('../../', location.href).href;
+
 interface Shown {
   readonly element: HTMLElement;
   state: string;
@@ -59,7 +62,7 @@ function figurePage(only?: string): void {
       if (!figure || asked !== mine) return;
       const onChange = (changed: string, step: boolean) => writeAddress(addressOf(listed, changed), step);
       const address = (written: string) => addressOf(listed, written);
-      shown = { listed, live: new Live(figure, { solvers, state, address, onChange }) };
+      shown = { listed, live: new Live(figure, { solvers, state, address, site, onChange }) };
       main.append(shown.live.element);
     } catch (error) {
       if (asked === mine) line.tell(error, () => void open());
