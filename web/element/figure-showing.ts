@@ -1,6 +1,7 @@
 import type { Told } from '../figures/kit/figure.ts';
 import { Live } from '../figures/kit/live.ts';
 import { FIGURES } from '../figures/list.ts';
+import { registeredFigure } from '../figures/registry.ts';
 import { h } from '../ui/dom.ts';
 import { lazy } from '../ui/lazy.ts';
 import { PageError } from '../ui/page-error.ts';
@@ -28,7 +29,7 @@ const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The 
 /** A figure in an element's shadow, ready or failed: it says by itself what went wrong. Throws where there is no such figure, or none comes. */
 export async function showFigure(name: string, options: FigureOptions): Promise<FigureShowing> {
   const { stage, signal, onChange } = options;
-  const figure = (await parts.get(name)?.(undefined))?.default;
+  const figure = registeredFigure(name) ?? (await parts.get(name)?.(undefined))?.default;
   if (!figure) {
     throw new PageError(
       'unknown-figure',
