@@ -1,7 +1,9 @@
 // `npm run build`: the library into dist/ (a mirror of the sources) and the site into build/site.
 // `npm run build -- library` or `-- site` builds only one of them.
-import { copyFileSync, rmSync } from 'node:fs';
+import { copyFileSync, rmSync, writeFileSync } from 'node:fs';
 import { finishDist } from './lib/dist.mjs';
+import { elementTypes } from './lib/element-types.mjs';
+import { manifestOf, readElements } from './lib/elements-manifest.mjs';
 import { ensureInstalled } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
 import { mustRun, runMain } from './lib/run.mjs';
@@ -23,6 +25,9 @@ await runMain(async () => {
       '--inlineSources',
     ]);
     finishDist(at('dist'));
+    const elements = readElements();
+    writeFileSync(at('dist', 'custom-elements.json'), manifestOf(elements));
+    for (const [name, text] of Object.entries(elementTypes(elements))) writeFileSync(at('dist', 'web', 'element', name), text);
     await buildStandalone('dist');
     console.log('dist/: the library.');
   }

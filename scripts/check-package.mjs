@@ -7,6 +7,7 @@ import { ensureInstalled, npm } from './lib/install.mjs';
 import { at } from './lib/paths.mjs';
 import { mustRun, runMain } from './lib/run.mjs';
 import { bundleRuntime } from './package/bundle.mjs';
+import { tryFrameworks } from './package/frameworks.mjs';
 import { tryFromGit } from './package/from-git.mjs';
 import { dryRun } from './package/publish.mjs';
 import { trySmoke, tryThree } from './package/smoke.mjs';
@@ -57,6 +58,7 @@ await runMain(async () => {
       await tryThree(project);
       checkTypes(project, manifest.exports, version);
     }
+    await tryFrameworks(mkdtempSync(path.join(folder, 'frameworks-')), path.join(folder, tarball));
     await tryFromGit(mkdtempSync(path.join(folder, 'git-')));
   } finally {
     rmSync(folder, { recursive: true, force: true });

@@ -19,7 +19,7 @@ const DISPOSING = `type Disposing = SymbolConstructor extends { readonly dispose
  * `/// <reference lib="esnext.disposable" />`, which promises the symbol to the reader's whole program, whose browsers may not have it.
  * @param {string} declarations
  */
-function withoutDisposeSymbol(declarations) {
+export function withoutDisposeSymbol(declarations) {
   /** @type {string[]} */
   const classes = [];
   // A class declaration runs to the first brace at the line's start.

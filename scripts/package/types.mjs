@@ -46,6 +46,8 @@ export async function take(hb: Handlebody, body: BodyData, numbers: TypedArray, 
   hb.poseSpace({ dimensions: ['a'], examples: [{ name: 'b', at: numbers, shape: numbers }] }).evaluate(numbers, numbers);
   return [bodies, own, made, moved];
 }
+document.createElement('handle-body').addEventListener('change', ({ detail }) => detail.to[0].toFixed());
+document.querySelector('pose-space')?.addEventListener('error', ({ detail }) => detail.remedy.trim());
 export const takeGeometry = (hb: Handlebody, { attributes, index }: BufferGeometry) =>
   attributes.position && index && hb.bake({ positions: attributes.position.array, triangles: index.array });
 `;
@@ -62,10 +64,10 @@ export async function use(body: Parameters<Awaited<ReturnType<typeof load>>['irb
 }
 `;
 
-/** Every entry that has types, at once. @param {Record<string, unknown>} entries The manifest's exports. */
+/** Every entry that has types, at once, but for those that name a framework's: see frameworks.mjs. @param {Record<string, unknown>} entries The manifest's exports. */
 const everyEntry = (entries) =>
   Object.entries(entries)
-    .filter(([, target]) => typeof target === 'object')
+    .filter(([entry, target]) => typeof target === 'object' && !/\/(react|vue|svelte)$/.test(entry))
     .map(([entry], i) => `export * as entry${i} from '${path.posix.join('handlebody', entry)}';\n`)
     .join('');
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { rewriteModuleUrls } from '../../scripts/lib/dist.mjs';
+import { rewriteModuleUrls, withoutDisposeSymbol } from '../../scripts/lib/dist.mjs';
 import { nodeProblem } from '../../scripts/lib/install.mjs';
 import { readDoctest } from '../../scripts/lib/native.mjs';
 import { readVitest } from '../../scripts/lib/vitest.mjs';
@@ -59,4 +59,17 @@ describe('findMachinePaths', () => {
   it.each(['https://example.org/home/page', '../work/x', 'src/root/x', '/usr/share/nodejs'])('allows %s', (text) =>
     expect(findMachinePaths(text)).toEqual([]),
   );
+});
+
+describe('withoutDisposeSymbol', () => {
+  const declarations =
+    'export declare class A {\n    dispose(): void;\n    [Symbol.dispose](): void;\n}\nexport declare class B {\n}\n';
+  it('takes the symbol out of the class, and adds it where a library knows it', () => {
+    const rewritten = withoutDisposeSymbol(declarations);
+    expect(rewritten).not.toContain('[Symbol.dispose]');
+    expect(rewritten).toContain('export interface A extends Disposing {');
+    expect(rewritten).not.toContain('interface B');
+  });
+  it('leaves others as they are', () =>
+    expect(withoutDisposeSymbol('export declare const a: 1;\n')).toBe('export declare const a: 1;\n'));
 });

@@ -33,8 +33,22 @@ export interface ElementError {
  * What the elements have in common: they load when they come near the window, sleep when they leave it, show a poster, their progress and,
  * in a sentence, what went wrong, and give back what they hold.
  *
- * Attributes: `alt`, `poster`, `loading` ("lazy", the default, or "eager"), `reveal` ("auto", or "manual": when asked for).
- * Events: `progress`, `load`, `error`. Slots: `poster`, `progress`. Parts: `poster`, `progress`, `message`.
+ * @attr alt - What it shows, in words: for those who do not see it.
+ * @attr poster - The address of a picture, shown until there is more to see.
+ * @attr {"lazy" | "eager"} loading - Whether it waits until it is near the window, as it does by itself.
+ * @attr {"auto" | "manual"} reveal - "manual" waits until it is asked for.
+ * @slot poster - Shown until there is more to see; in place of `poster`.
+ * @slot progress - Shown while it loads; in place of its own bar.
+ * @csspart poster - What is shown until there is more to see.
+ * @csspart progress - Around the bar.
+ * @csspart message - The sentence that says what went wrong.
+ * @cssprop --accent - The color of what can be acted on.
+ * @cssprop --surface - The background of controls.
+ * @cssprop --paper - The background behind a poster.
+ * @cssprop --ink - The color of words.
+ * @cssprop --line - The color of lines.
+ * @cssprop --radius - Of the corners.
+ * @cssprop --font - The letters.
  */
 export abstract class ElementBase extends PageElement {
   static observedAttributes: readonly string[] = ['alt', 'poster', 'loading', 'reveal'];

@@ -1,6 +1,7 @@
 import type { Told } from '../figures/kit/figure.ts';
 import { Live } from '../figures/kit/live.ts';
 import { FIGURES } from '../figures/list.ts';
+import { registeredFigure } from '../figures/registry.ts';
 import { h } from '../ui/dom.ts';
 import { lazy } from '../ui/lazy.ts';
 import { PageError } from '../ui/page-error.ts';
@@ -34,7 +35,7 @@ const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The 
  */
 export async function showFigure(name: string, options: FigureOptions): Promise<FigureShowing> {
   const { stage, signal, onChange } = options;
-  const figure = (await parts.get(name)?.(undefined))?.default;
+  const figure = registeredFigure(name) ?? (await parts.get(name)?.(undefined))?.default;
   if (!figure) {
     throw new PageError(
       'unknown-figure',

@@ -1,15 +1,16 @@
 import type { BodyShowing, BodyState, HandleChange } from './body-showing.ts';
+import type { HandleBodyEvents } from './events.ts';
 import { type AskedHandle, readHandles, writeHandles } from './handles-text.ts';
 import { ModelElement, type ModelOptions } from './model-element.ts';
 
 /**
  * A model that is deformed by dragging: `<handle-body src="dog.glb" alt="A dog">`. A model that was not baked is baked when it comes.
  *
- * Attributes besides those of all elements: `src`, a GLB; `handles`, "Nose: 13637, Paw: 1172" by vertices or "Tip: 0 1 0" by places inside
- * (those that the file names where it is left out, else six spread over the body); `camera`, "58deg 14deg", azimuth and height; `controls`,
- * buttons for the camera.
- * Events: `load`, `progress`, `error`, and `change`, whose detail is a `HandleChange`.
+ * @attr handles - "Nose: 13637, Paw: 1172" by vertices or "Tip: 0 1 0" by places inside; those that the file names where it is left out, else
+ * six spread over the body.
+ * @csspart handle - Each handle: a button.
  */
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the interface types methods that every element has
 export class HandleBodyElement extends ModelElement {
   static override observedAttributes = [...ModelElement.observedAttributes, 'handles'];
   /** @internal */
@@ -17,13 +18,13 @@ export class HandleBodyElement extends ModelElement {
   /** @internal */
   declare protected state: BodyState | undefined;
 
-  /** Those that are shown; setting it replaces them, at rest. */
+  /** Those that are shown; setting it, to text as the attribute has it or to a list, replaces them, at rest. */
   get handles(): readonly AskedHandle[] {
     return this.shown?.handles ?? readHandles(this.getAttribute('handles') ?? '');
   }
 
-  set handles(handles: readonly AskedHandle[]) {
-    this.setAttribute('handles', writeHandles(handles));
+  set handles(handles: readonly AskedHandle[] | string) {
+    this.setAttribute('handles', typeof handles === 'string' ? handles : writeHandles(handles));
   }
 
   /** Where the handles are to go, model units: write it, and the body follows. Empty until it has come. */
@@ -54,7 +55,7 @@ export class HandleBodyElement extends ModelElement {
       ...options,
       handles,
       state: this.state,
-      onChange: (detail) => this.dispatchEvent(new CustomEvent<HandleChange>('change', { detail })),
+      onChange: (detail: HandleChange) => this.dispatchEvent(new CustomEvent('change', { detail })),
       onGood: () => this.quiet(),
     });
   }
@@ -64,4 +65,20 @@ export class HandleBodyElement extends ModelElement {
     else if (this.shown) this.attempt(() => this.shown?.hold(readHandles(this.getAttribute('handles') ?? '')));
     else super.changed('src');
   }
+}
+
+// Listeners know what each event brings.
+export interface HandleBodyElement {
+  addEventListener<K extends keyof HandleBodyEvents>(
+    type: K,
+    listener: (event: HandleBodyEvents[K]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<K extends keyof HandleBodyEvents>(
+    type: K,
+    listener: (event: HandleBodyEvents[K]) => void,
+    options?: boolean | EventListenerOptions,
+  ): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | EventListenerOptions): void;
 }

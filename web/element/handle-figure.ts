@@ -1,15 +1,17 @@
 import type { Told } from '../figures/kit/figure.ts';
 import { ElementBase, type Showing } from './element-base.ts';
+import type { HandleFigureEvents } from './events.ts';
 import type { FigureShowing } from './figure-showing.ts';
 
 /**
  * A live figure: `<handle-figure name="course-12" controls caption></handle-figure>`.
  *
- * Attributes besides those of all elements: `name`, of a figure; `state`, one line of text as links and the event "change" have it;
- * `controls` and `caption`, whether these are shown beside the pictures.
- * Events: `load` when it has told its numbers, `error`, and `change` when the figure has come to rest in another state or in one that was asked
- * for, whose detail is `{ state }`.
+ * @attr name - Which figure.
+ * @attr state - How it begins: one line of text as links and the event "change" have it.
+ * @attr {boolean} controls - Whether its controls are shown.
+ * @attr {boolean} caption - Whether its title and its caption are shown.
  */
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the interface types methods that every element has
 export class HandleFigureElement extends ElementBase {
   static override observedAttributes = [...ElementBase.observedAttributes, 'name', 'state', 'controls', 'caption'];
   #figure: FigureShowing | undefined;
@@ -69,4 +71,20 @@ export class HandleFigureElement extends ElementBase {
       this.again();
     } else if (attribute === 'state') this.state = this.getAttribute('state') ?? '';
   }
+}
+
+// Listeners know what each event brings.
+export interface HandleFigureElement {
+  addEventListener<K extends keyof HandleFigureEvents>(
+    type: K,
+    listener: (event: HandleFigureEvents[K]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<K extends keyof HandleFigureEvents>(
+    type: K,
+    listener: (event: HandleFigureEvents[K]) => void,
+    options?: boolean | EventListenerOptions,
+  ): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | EventListenerOptions): void;
 }

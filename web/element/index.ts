@@ -13,6 +13,7 @@ import { PoseSpaceElement } from './pose-space.ts';
 export type { Told } from '../figures/kit/figure.ts';
 export type { HandleChange } from './body-showing.ts';
 export { ElementBase, type ElementError, PageElement, type Showing } from './element-base.ts';
+export type { ElementEvents, HandleBodyEvents, HandleFigureEvents, ModelEvents, PoseSpaceEvents } from './events.ts';
 export { HandleBodyElement } from './handle-body.ts';
 export { HandleFigureElement } from './handle-figure.ts';
 export type { AskedHandle } from './handles-text.ts';

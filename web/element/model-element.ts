@@ -26,8 +26,14 @@ export interface ModelShowing extends Showing {
 }
 
 /**
- * What elements have in common that show a model. Attributes: `src`, a GLB; `controls`, buttons for the camera, and more where the element has
- * more; `camera`, "58deg 14deg", azimuth and height.
+ * What elements have in common that show a model.
+ *
+ * @attr src - The address of a GLB.
+ * @attr {boolean} controls - Whether there are buttons for the camera, and more where the element has more.
+ * @attr camera - From where it is seen, azimuth and height: "58deg 14deg".
+ * @csspart viewport - The picture and what lies on it.
+ * @csspart canvas - The picture.
+ * @csspart controls - The buttons for the camera.
  */
 export abstract class ModelElement extends ElementBase {
   static override observedAttributes = [...ElementBase.observedAttributes, 'src', 'controls', 'camera'];

@@ -1,3 +1,4 @@
+import type { PoseSpaceEvents } from './events.ts';
 import { ModelElement, type ModelOptions } from './model-element.ts';
 import { type NamedPlace, readPlace } from './place-text.ts';
 import type { PlaceChange, PoseShowing, PoseState } from './pose-showing.ts';
@@ -5,10 +6,10 @@ import type { PlaceChange, PoseShowing, PoseState } from './pose-showing.ts';
 /**
  * A face, or any model with a pose space, that a place in it moves: `<pose-space src="face.glb" alt="A face" controls></pose-space>`.
  *
- * Attributes besides those of all elements: `src`, a GLB with a pose space; `at`, "valence=0.6, arousal=0.4"; `controls`, the plane with its
- * sliders, and buttons for the camera; `camera`, "9deg 2deg", azimuth and height.
- * Events: `load`, `progress`, `error`, and `change` when somebody goes to a place, whose detail is a `PlaceChange`.
+ * @attr at - Where it begins, by the names of its dimensions: "valence=0.6, arousal=0.4".
+ * @csspart plane - The plane with its sliders.
  */
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the interface types methods that every element has
 export class PoseSpaceElement extends ModelElement {
   static override observedAttributes = [...ModelElement.observedAttributes, 'at'];
   /** @internal */
@@ -16,13 +17,15 @@ export class PoseSpaceElement extends ModelElement {
   /** @internal */
   declare protected state: PoseState | undefined;
 
-  /** Where the face is, by the names of its dimensions; setting it goes there. */
+  /** Where the face is, by the names of its dimensions; setting it, or text as the attribute has it, goes there. */
   get at(): NamedPlace {
     return this.shown?.state.at ?? this.state?.at ?? readPlace(this.getAttribute('at') ?? '');
   }
 
-  set at(place: NamedPlace) {
-    if (this.shown) this.attempt(() => this.shown?.go(place));
+  set at(place: NamedPlace | string) {
+    if (this.shown) this.attempt(() => this.shown?.go(typeof place === 'string' ? readPlace(place) : place));
+    // Text that cannot be read is told when the model comes.
+    else if (typeof place === 'string') this.setAttribute('at', place);
     else this.state = { ...this.state, at: place };
   }
 
@@ -44,4 +47,20 @@ export class PoseSpaceElement extends ModelElement {
     else if (this.shown) this.attempt(() => this.shown?.go(readPlace(this.getAttribute('at') ?? '')));
     else super.changed('src');
   }
+}
+
+// Listeners know what each event brings.
+export interface PoseSpaceElement {
+  addEventListener<K extends keyof PoseSpaceEvents>(
+    type: K,
+    listener: (event: PoseSpaceEvents[K]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<K extends keyof PoseSpaceEvents>(
+    type: K,
+    listener: (event: PoseSpaceEvents[K]) => void,
+    options?: boolean | EventListenerOptions,
+  ): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | EventListenerOptions): void;
 }

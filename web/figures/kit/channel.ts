@@ -16,7 +16,8 @@ export type Channels = Readonly<Record<string, Channel<any>>>;
 /** What the channels hold, by name. */
 export type StateOf<C extends Channels> = { readonly [K in keyof C]: C[K] extends Channel<infer T> ? T : never };
 
-interface Described {
+/** What every control has. */
+export interface Described {
   readonly label: string;
   /** Behind "More settings": seldom needed. */
   readonly rare?: boolean;
@@ -39,7 +40,7 @@ export interface AutoRange extends Channel<number | 'auto'>, Omit<Range, keyof C
 }
 
 /** A word that can be chosen, its label and, where it is chosen, what it means. */
-type Option<T extends string> = readonly [value: T, label: string, about?: string];
+export type Option<T extends string> = readonly [value: T, label: string, about?: string];
 
 /** One of several words: in a menu, or all of them to be seen. */
 export interface Choice<T extends string = string> extends Channel<T>, Described {
@@ -72,7 +73,7 @@ export function readAlone<T>({ read }: Channel<T>, text: string): T | undefined 
   return read(text, [], {});
 }
 
-interface RangeOptions<T> {
+export interface RangeOptions<T> {
   readonly from: number;
   readonly to: number;
   readonly value: T;

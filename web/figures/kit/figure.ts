@@ -74,7 +74,7 @@ export interface PartControl<S> {
 }
 
 /** A choice between presets of two kinds, each of which is found again as it was left. */
-interface Sides<C extends Channels> {
+export interface Sides<C extends Channels> {
   readonly label: string;
   readonly options: readonly (readonly [label: string, preset: string])[];
   /** The number of the option that a state is of. */
@@ -128,7 +128,8 @@ export interface Figure<C extends Channels, M> {
 // biome-ignore lint/suspicious/noExplicitAny: a list holds figures of all kinds
 export type AnyFigure = Figure<any, any>;
 
-interface Made {
+/** What a figure makes: objects of the solver, to be given back. */
+export interface Made {
   dispose?(): void;
 }
 

@@ -8,19 +8,20 @@ import { asLong, type Frame, Samples } from './samples.ts';
 import { swatch } from './swatch.ts';
 
 /** A function of one number: an interpolant, or anything that fills an array. */
-interface Evaluable {
+export interface Evaluable {
   evaluate(xs: Float64Array, out: Float64Array): unknown;
 }
 
 /** Something to drag in a plot, besides points. */
-interface PlotHandle {
+export interface PlotHandle {
   /** "Kernel 3, weight 0.4" */
   readonly name: string;
   readonly at: readonly [x: number, y: number];
   move(x: number, y: number): void;
 }
 
-interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
+/** What a plot of curves shows. */
+export interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
   /** What the plot shows, for those who do not see it. */
   readonly label: string;
   /** Above it. */
@@ -58,7 +59,7 @@ export function linePlot<M, S>(options: LinePlotOptions<M, S>): Panel<M, S> {
 
 type Group = 'points' | 'others';
 
-interface CurveOptions {
+export interface CurveOptions {
   readonly detail?: string;
   readonly dashed?: boolean;
   /** By which it is emphasized, and which color and dash it has; else its number. */
@@ -68,7 +69,7 @@ interface CurveOptions {
 }
 
 /** What a figure draws with: curves and handles are named anew for each frame. */
-class LinePlot<M, S> {
+export class LinePlot<M, S> {
   readonly element: HTMLElement;
   readonly #kit: Kit<S, M>;
   readonly #options: Omit<LinePlotOptions<M, S>, 'draw'>;
