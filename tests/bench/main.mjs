@@ -1,9 +1,10 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, figures, irbf, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, irbf, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
 const PARTS = {
   bake: async () => (await import('./bake/main.mjs')).benchBake(),
+  elements: async () => (await import('./elements/main.mjs')).benchElements(),
   figures: async () => (await import('./figures/main.mjs')).benchFigures(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),

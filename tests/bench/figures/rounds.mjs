@@ -63,9 +63,17 @@ async function count(page, cdp) {
   return { nodes, listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize'), solver };
 }
 
-/** The largest change of each count from the tenth round on, over what it was then. @param {Held[]} held @returns {Held} */
+/**
+ * The largest change of each count from the tenth round on, over what it was then.
+ * @template {Record<string, number>} Counts
+ * @param {Counts[]} held
+ * @returns {Counts}
+ */
 export function growth(held) {
-  const from = /** @type {Held} */ (held[9]);
-  const most = (/** @type {keyof Held} */ key) => Math.max(...held.slice(9).map((now) => Math.abs(now[key] / from[key] - 1)));
-  return { nodes: most('nodes'), listeners: most('listeners'), heap: most('heap'), solver: most('solver') };
+  const from = /** @type {Counts} */ (held[9]);
+  const most = (/** @type {string} */ key) => {
+    const first = /** @type {number} */ (from[key]);
+    return Math.max(...held.slice(9).map((now) => Math.abs(/** @type {number} */ (now[key]) - first))) / Math.max(first, 1);
+  };
+  return /** @type {Counts} */ (Object.fromEntries(Object.keys(from).map((key) => [key, most(key)])));
 }
