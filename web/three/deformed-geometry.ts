@@ -5,7 +5,6 @@ import {
   BufferGeometry,
   DynamicDrawUsage,
   type Intersection,
-  Matrix4,
   type Object3D,
   type Raycaster,
   Sphere,
@@ -13,8 +12,7 @@ import {
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { invertAffine, isIdentity, type Matrix, type Sixteen } from '../assets/transform.ts';
 import { decode, isSkinned, type ObjectPart } from './geometry.ts';
-import { updateFrame, worldFrame } from './part-frame.ts';
-import { asMatrix4, castAt, forgetBounds, type SurfacePick, surfacePick } from './surface-pick.ts';
+import { castAt, forgetBounds, type SurfacePick, surfacePick } from './surface-pick.ts';
 import { TurnedTangents } from './turned-tangents.ts';
 
 /** A part while it is being deformed. */
@@ -25,7 +23,6 @@ interface LivePart extends ObjectPart {
   readonly tangents: TurnedTangents | undefined;
   /** From the object's space to the part's; undefined when they are one. */
   readonly inverse: Sixteen | undefined;
-  readonly fromObject: Matrix4;
   /** Its transpose takes normals back. */
   readonly matrix: Sixteen;
   /** How far the morph targets can move a vertex beyond its deformed place. */
@@ -94,20 +91,6 @@ export class DeformedGeometry {
     return hit && surfacePick(this.#parts, hit);
   }
 
-  /**
-   * From the object's space, where handles and targets are, to the world, as vertex `v` is carried there: with its mesh, wherever that went
-   * since, and where it is skinned with its bones.
-   */
-  frame(v: number, out = new Matrix4()): Matrix4 {
-    const part = this.#parts.find(({ start, count }) => v >= start && v < start + count);
-    return part ? worldFrame(part, part.fromObject, v - part.start, out) : out.identity();
-  }
-
-  /** Brings what `frame` reads up to date: the places of the meshes and their bones in the world. */
-  updateFrames(): void {
-    for (const part of this.#parts) updateFrame(part);
-  }
-
   /** Puts the original geometries back. Calling it again does nothing. */
   dispose(): void {
     for (const { mesh, geometry, original } of this.#parts) {
@@ -144,7 +127,6 @@ function bringToLife({ mesh, start, count, matrix }: ObjectPart, inverse: Sixtee
   return {
     ...{ mesh, start, count, original, geometry, positions, tangents, inverse },
     matrix: Array.from(matrix) as Sixteen,
-    fromObject: asMatrix4(matrix).invert(),
     reach: morphReach(original),
     bounds: { box: new Box3(), sphere: new Sphere() },
   };

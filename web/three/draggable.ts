@@ -15,6 +15,7 @@ import { farthestVertices } from './farthest.ts';
 import { HandleOverlay } from './handle-overlay.ts';
 import { LiveBody } from './live-body.ts';
 import { nearestVertex } from './nearest-vertex.ts';
+import { PartFrames } from './part-frames.ts';
 import type { SurfacePick } from './surface-pick.ts';
 
 /** A handle of the body: a vertex, or a point inside, in the object's own space; and what it is called. */
@@ -75,6 +76,7 @@ export class Draggable {
   readonly #shown: DeformedGeometry;
   readonly #place = new Vector3();
   readonly #frame = new Matrix4();
+  readonly #frames: PartFrames;
   readonly #raycaster = new Raycaster();
   #handles: readonly DraggableHandle[] = [];
   #rest: readonly Vector3[] = [];
@@ -87,6 +89,7 @@ export class Draggable {
     [this.object, this.#options] = [object, options];
     const { parts, normals } = bakedFrom(object, body);
     this.#live = new LiveBody(options.hb, body, normals);
+    this.#frames = new PartFrames(parts);
     try {
       this.#shown = new DeformedGeometry(parts);
     } catch (error) {
@@ -175,9 +178,9 @@ export class Draggable {
   /** Puts the handles where their points are on the screen. */
   place(): void {
     const { overlay } = this;
-    this.#shown.updateFrames();
+    this.#frames.update();
     this.#carriers.forEach((vertex, i) => {
-      const { x, y, z } = this.target(i, this.#place).applyMatrix4(this.#shown.frame(vertex, this.#frame));
+      const { x, y, z } = this.target(i, this.#place).applyMatrix4(this.#frames.of(vertex, this.#frame));
       overlay.setPosition(i, x, y, z);
       if (i === 0) overlay.step = this.#live.data.normalization.diagonal * this.#frame.getMaxScaleOnAxis() * 0.01;
     });
@@ -232,8 +235,8 @@ export class Draggable {
 
   /** Brings a handle to a place in the world. */
   #bring(i: number, place: Vector3): void {
-    this.#shown.updateFrames();
-    const frame = this.#shown.frame(this.#carriers[i] as number, this.#frame);
+    this.#frames.update();
+    const frame = this.#frames.of(this.#carriers[i] as number, this.#frame);
     // What is scaled to nothing has nowhere to go.
     if (frame.determinant() !== 0) this.#put(i, this.#place.copy(place).applyMatrix4(frame.invert()));
   }

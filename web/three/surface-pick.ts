@@ -1,7 +1,6 @@
 import { type BufferGeometry, type Intersection, Matrix4, type Raycaster, type SkinnedMesh, Triangle, Vector3 } from 'three';
-import type { Matrix } from '../assets/transform.ts';
 import { isPoints, isSkinned, type ObjectPart } from './geometry.ts';
-import { updateFrame } from './part-frame.ts';
+import { updateFrame } from './update-frame.ts';
 
 /** What a ray hits of a deformed surface. */
 export interface SurfacePick {
@@ -54,11 +53,12 @@ export function surfacePick(parts: readonly RestingPart[], hit: Intersection): S
   });
   const nearest = corners[weights.indexOf(Math.max(...weights))] as number;
   const { point, distance } = hit;
-  return { vertex: part.start + nearest, rest: rest.applyMatrix4(asMatrix4(part.matrix)), point: point.clone(), distance };
-}
-
-export function asMatrix4(matrix: Matrix): Matrix4 {
-  return new Matrix4().fromArray(Array.from(matrix));
+  return {
+    vertex: part.start + nearest,
+    rest: rest.applyMatrix4(new Matrix4().fromArray(Array.from(part.matrix))),
+    point: point.clone(),
+    distance,
+  };
 }
 
 function cornersOf({ mesh }: ObjectPart, { face, index }: Intersection): number[] | undefined {
