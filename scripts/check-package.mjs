@@ -75,10 +75,7 @@ function tryCommand(folder) {
   expect(0, 'bake', 'box.obj', '-o', 'box.glb', '--resolution', '24', '--centers', '8');
   if (JSON.parse(expect(0, 'inspect', 'box.glb', '--json')).body?.matches !== true) throw new Error('the box was not baked');
   expect(0, 'deform', 'box.glb', '--handles', 'handles.json', '-o', 'bent.glb');
-  for (const [what, element] of [
-    ['box.glb', 'handle-body'],
-    ['course-12', 'handle-figure'],
-  ]) {
+  for (const [what, element] of Object.entries({ 'box.glb': 'handle-body', 'course-12': 'handle-figure' })) {
     expect(0, 'embed', what, '-o', 'page.html');
     if (!readFileSync(path.join(folder, 'page.html'), 'utf8').includes(`<${element} `)) throw new Error(`${what} was not embedded`);
   }
