@@ -13,14 +13,25 @@ export type DrivenSpace = Pick<LoadedPoseSpace, 'dimensions' | 'examples' | 'mes
  *
  * ```ts
  * const [space] = handlebodyData(gltf).poseSpaces;
- * const face = poseDriver(hb, space);
- * face.set([0.6, 0.4]); // valence and arousal
+ * if (space) poseDriver(hb, space).set([0.6, 0.4]); // valence and arousal
  * ```
  */
 export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace): PoseDriver {
   return new PoseDriver(hb, space);
 }
 
+/**
+ * A model that goes to places of its pose space, as `poseDriver` makes it.
+ *
+ * ```ts
+ * const [space] = handlebodyData(gltf).poseSpaces;
+ * if (space) {
+ *   const face: PoseDriver = poseDriver(hb, space);
+ *   face.set([0.6, 0.4]);
+ *   console.log(face.weights);
+ * }
+ * ```
+ */
 export class PoseDriver {
   /** One number an example, at the place that was set last. */
   readonly weights: Float64Array;
