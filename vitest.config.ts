@@ -4,6 +4,18 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 
 const at = (name: string) => fileURLToPath(new URL(name, import.meta.url));
+/** The package's own entries, for examples that import them by name. */
+const entries = Object.entries({
+  handlebody: 'wasm/ts/index.ts',
+  'handlebody/element': 'web/element/index.ts',
+  'handlebody/external': 'wasm/ts/external.ts',
+  'handlebody/figure': 'web/figures/index.ts',
+  'handlebody/gltf-transform': 'web/assets/index.ts',
+  'handlebody/runtime': 'wasm/ts/runtime.ts',
+  'handlebody/runtime/external': 'wasm/ts/runtime-external.ts',
+  'handlebody/three': 'web/three/index.ts',
+  'handlebody/worker': 'web/worker/index.ts',
+});
 const webSetup = at('tests/web/global-setup.ts');
 
 export default defineConfig({
@@ -11,11 +23,7 @@ export default defineConfig({
     projects: [
       {
         resolve: {
-          alias: [
-            { find: /^handlebody$/, replacement: at('wasm/ts/index.ts') },
-            { find: /^handlebody\/runtime$/, replacement: at('wasm/ts/runtime.ts') },
-            { find: /^handlebody\/three$/, replacement: at('web/three/index.ts') },
-          ],
+          alias: entries.map(([name, file]) => ({ find: new RegExp(`^${name}$`), replacement: at(file) })),
         },
         test: {
           name: 'ts',

@@ -1,6 +1,7 @@
-// `npm run build`: the library into dist/ (a mirror of the sources) and the site into build/site.
+// `npm run build`: the library into dist/ (a mirror of the sources) and the site into build/site, the reference of the API in its api/.
 // `npm run build -- library` or `-- site` builds only one of them.
 import { copyFileSync, rmSync, writeFileSync } from 'node:fs';
+import { buildApiReference } from './lib/api-reference.mjs';
 import { finishDist } from './lib/dist.mjs';
 import { elementTypes } from './lib/element-types.mjs';
 import { manifestOf, readElements } from './lib/elements-manifest.mjs';
@@ -33,6 +34,7 @@ await runMain(async () => {
   }
   if (wanted('site') && hasPages()) {
     await buildSite();
+    await buildApiReference(at('build', 'site', 'api'));
     for (const notice of ['LICENSE', 'THIRD_PARTY_NOTICES.md']) copyFileSync(at(notice), at('build', 'site', notice));
     console.log('build/site/: the site.');
   }

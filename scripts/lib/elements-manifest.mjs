@@ -51,7 +51,11 @@ export function readElements() {
   const moduleOf = (/** @type {ts.Node} */ node) =>
     path.relative(at(), node.getSourceFile().fileName).replaceAll('\\', '/').replace(/\.ts$/, '.js').replace(/^/, 'dist/');
   const words = (/** @type {ts.Symbol} */ symbol) =>
-    ts.displayPartsToString(symbol.getDocumentationComment(checker)).replace(/\s+/g, ' ');
+    ts
+      .displayPartsToString(symbol.getDocumentationComment(checker))
+      .replace(/```[\s\S]*/, '')
+      .replace(/\s+/g, ' ')
+      .trim();
   const textOf = (/** @type {ts.Symbol} */ symbol) =>
     checker.typeToString(checker.getTypeOfSymbol(symbol), undefined, ts.TypeFormatFlags.NoTruncation);
   const signatureOf = (/** @type {ts.Symbol} */ method) => {

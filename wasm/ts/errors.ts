@@ -34,6 +34,14 @@ export interface Culprit {
 /**
  * The one error type of this library. `message` says in a plain sentence what is wrong, `remedy` what to do about it; both are
  * written to be shown to people. `code` is stable and made for programs.
+ *
+ * ```ts
+ * try {
+ *   await hb.bake({ positions: new Float32Array(3), triangles: new Uint32Array() });
+ * } catch (error) {
+ *   if (error instanceof HandlebodyError) console.log(error.code, error.message, error.remedy);
+ * }
+ * ```
  */
 export class HandlebodyError extends Error {
   override readonly name = 'HandlebodyError';

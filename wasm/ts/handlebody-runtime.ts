@@ -19,6 +19,12 @@ import type { BodyData, IrbfOptions } from './types.ts';
  *
  * It deforms and interpolates, with bodies and weights that were made elsewhere. `Handlebody`, of the import "handlebody", makes bodies and
  * weights.
+ *
+ * ```ts
+ * const f = hb.shepard({ dimension: 1, points: [0, 1], values: [2, 3] });
+ * f.evaluate([0.5]);
+ * hb.memory; // bytes
+ * ```
  */
 export class HandlebodyRuntime {
   readonly #heap: Heap;

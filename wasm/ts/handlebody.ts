@@ -11,7 +11,14 @@ import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './t
 import type { BakeOptions, BakeShape, BodyData, Mesh } from './types.ts';
 import type { WeightHandle } from './weight-handles.ts';
 
-/** A solver instance that can do everything: bake bodies, compute weights and minimize energies, besides what `HandlebodyRuntime` does. */
+/**
+ * A solver instance that can do everything: bake bodies, compute weights and minimize energies, besides what `HandlebodyRuntime` does.
+ *
+ * ```ts
+ * const body = await hb.bake(mesh, { centers: 60 });
+ * const solid = hb.tetrahedralize(mesh, { resolution: 16 });
+ * ```
+ */
 export class Handlebody extends HandlebodyRuntime {
   readonly #heap: Heap<Exports>;
 

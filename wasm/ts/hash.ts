@@ -1,6 +1,10 @@
 /**
  * A 64-bit hash, after FNV-1a, of positions rounded to float: it ties baked distances to the mesh that they were computed for, however
  * the file that carries both was stored. Not a defence against forgery.
+ *
+ * ```ts
+ * hashPositions(mesh.positions) === body.positionsHash; // the body was baked for this mesh
+ * ```
  */
 export function hashPositions(positions: ArrayLike<number>): string {
   const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);

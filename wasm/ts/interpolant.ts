@@ -31,6 +31,12 @@ const BATCH = 4096;
 /**
  * A function made of scattered data: f(x) = Σ wₖ(x) fₖ, one weight for each point. Arrays are row-major; `out` may be handed over to
  * be filled, so that a call allocates nothing.
+ *
+ * ```ts
+ * const out = new Float64Array(2);
+ * const some: Interpolant[] = [hb.shepard({ dimension: 1, points: [0, 1], values: [2, 3] })];
+ * for (const f of some) f.evaluate([0.25, 0.5], out); // allocates nothing
+ * ```
  */
 export abstract class Interpolant {
   /** Points, as given. */

@@ -18,6 +18,12 @@ export const SKIN_DEFAULTS = { dimension: 3 } as const;
 
 /**
  * A shape under h handles: write their `transforms`, then `deform`. A frame allocates nothing when it is given `out`.
+ *
+ * ```ts
+ * const skin: Skin = hb.linearBlend({ dimension: 2, positions: [0, 0, 1, 0], weights: [1, 0, 0, 1] });
+ * skin.transforms.set([1, 0, 3, 0, 1, 0], 6); // shifts handle 1 by 3
+ * skin.dispose();
+ * ```
  */
 export abstract class Skin {
   /** Coordinates of a vertex, 2 or 3. */
@@ -106,7 +112,14 @@ export abstract class Skin {
   }
 }
 
-/** A skin that weights make: `deform` blends the transforms at every vertex. */
+/**
+ * A skin that weights make: `deform` blends the transforms at every vertex.
+ *
+ * ```ts
+ * const skin: BlendedSkin = hb.linearBlend({ positions: [0, 0, 0, 1, 0, 0], weights: [1, 0, 0, 1] });
+ * skin.deform(new Float32Array(6));
+ * ```
+ */
 export abstract class BlendedSkin extends Skin {
   /** @internal */
   protected constructor(

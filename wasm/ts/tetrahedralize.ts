@@ -12,7 +12,15 @@ export interface TetrahedralizeOptions {
 
 export const TETRAHEDRALIZE_DEFAULTS = { resolution: 32 } as const;
 
-/** Tetrahedra that fill a surface, with the place of each of its vertices in them: a mesh for `biharmonicWeights` and the like. */
+/**
+ * Tetrahedra that fill a surface, with the place of each of its vertices in them: a mesh for `biharmonicWeights` and the like.
+ *
+ * ```ts
+ * const solid = hb.tetrahedralize(mesh);
+ * const { weights } = hb.biharmonicWeights(solid, [{ vertex: 3 }, { vertex: 40 }]);
+ * solid.sample(weights); // two numbers for each vertex of the surface
+ * ```
+ */
 export class Tetrahedra implements SimplexMesh {
   readonly dimension = 3;
   /** n×3: the corners of voxels. */

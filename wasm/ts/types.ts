@@ -47,7 +47,7 @@ export interface VoxelVolume {
 export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
 
 /**
- * A mesh with its interior distances and spheres, as {@link bake} makes it and a baked GLB carries it. Lengths from `grid` on are in
+ * A mesh with its interior distances and spheres, as `Handlebody.bake` makes it and a baked GLB carries it. Lengths from `grid` on are in
  * solver space: (position − normalization.center) / normalization.diagonal.
  */
 export interface BodyData {

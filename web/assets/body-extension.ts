@@ -25,7 +25,15 @@ export type BodyAccessorName = keyof typeof BODY_ACCESSORS;
 
 const NAMES = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];
 
-/** A baked body in a glTF-Transform document. Use `attachBody` and `readBody`, which check what they handle. */
+/**
+ * A baked body in a glTF-Transform document. Use `attachBody` and `readBody`, which check what they handle.
+ *
+ * ```ts
+ * await attachBody(document, body);
+ * const property = document.getRoot().getExtension<BodyProperty>('HANDLEBODY_body');
+ * property?.getAccessor('centers')?.getCount();
+ * ```
+ */
 export class BodyProperty extends ExtensionProperty<IBodyProperty> {
   static override readonly EXTENSION_NAME = HANDLEBODY_BODY;
   declare readonly extensionName: typeof HANDLEBODY_BODY;

@@ -15,7 +15,13 @@ export interface IPoseSpaceProperty {
   definition: Record<string, unknown>;
 }
 
-/** A mesh's pose space in a glTF-Transform document. Use `attachPoseSpace` and `readPoseSpaces`, which check what they handle. */
+/**
+ * A mesh's pose space in a glTF-Transform document. Use `attachPoseSpace` and `readPoseSpaces`, which check what they handle.
+ *
+ * ```ts
+ * for (const mesh of document.getRoot().listMeshes()) console.log(mesh.getExtension<PoseSpaceProperty>('HANDLEBODY_pose_space')?.getDefinition());
+ * ```
+ */
 export class PoseSpaceProperty extends ExtensionProperty<IPoseSpaceProperty> {
   static override readonly EXTENSION_NAME = HANDLEBODY_POSE_SPACE;
   declare readonly extensionName: typeof HANDLEBODY_POSE_SPACE;

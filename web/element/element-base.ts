@@ -33,6 +33,11 @@ export interface ElementError {
  * What the elements have in common: they load when they come near the window, sleep when they leave it, show a poster, their progress and,
  * in a sentence, what went wrong, and give back what they hold.
  *
+ * ```ts
+ * import { type ElementBase } from 'handlebody/element';
+ * for (const tag of document.querySelectorAll<ElementBase>('handle-body, pose-space, handle-figure')) tag.dismissPoster();
+ * ```
+ *
  * @attr alt - What it shows, in words: for those who do not see it.
  * @attr poster - The address of a picture, shown until there is more to see.
  * @attr {"lazy" | "eager"} loading - Whether it waits until it is near the window, as it does by itself.

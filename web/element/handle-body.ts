@@ -6,6 +6,13 @@ import { ModelElement, type ModelOptions } from './model-element.ts';
 /**
  * A model that is deformed by dragging: `<handle-body src="dog.glb" alt="A dog">`. A model that was not baked is baked when it comes.
  *
+ * ```ts
+ * import 'handlebody/element';
+ * const dog = document.querySelector('handle-body');
+ * dog?.addEventListener('change', ({ detail }) => console.log(detail.name, detail.to));
+ * if (dog) dog.handles = [{ name: 'Nose', vertex: 13637 }];
+ * ```
+ *
  * @attr handles - "Nose: 13637, Paw: 1172" by vertices or "Tip: 0 1 0" by places inside; those that the file names where it is left out, else
  * six spread over the body.
  * @csspart handle - Each handle: a button.

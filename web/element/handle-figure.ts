@@ -6,6 +6,12 @@ import type { FigureShowing } from './figure-showing.ts';
 /**
  * A live figure: `<handle-figure name="course-12" controls caption></handle-figure>`.
  *
+ * ```ts
+ * import 'handlebody/element';
+ * const figure = document.querySelector('handle-figure');
+ * figure?.addEventListener('change', ({ detail }) => console.log(detail.state, figure.told));
+ * ```
+ *
  * @attr name - Which figure.
  * @attr state - How it begins: one line of text as links and the event "change" have it.
  * @attr {boolean} controls - Whether its controls are shown.

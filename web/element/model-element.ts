@@ -28,6 +28,11 @@ export interface ModelShowing extends Showing {
 /**
  * What elements have in common that show a model.
  *
+ * ```ts
+ * import { type ModelElement } from 'handlebody/element';
+ * for (const tag of document.querySelectorAll<ModelElement>('handle-body, pose-space')) tag.camera = '58deg 14deg';
+ * ```
+ *
  * @attr src - The address of a GLB.
  * @attr {boolean} controls - Whether there are buttons for the camera, and more where the element has more.
  * @attr camera - From where it is seen, azimuth and height: "58deg 14deg".

@@ -6,6 +6,13 @@ import type { PlaceChange, PoseShowing, PoseState } from './pose-showing.ts';
 /**
  * A face, or any model with a pose space, that a place in it moves: `<pose-space src="face.glb" alt="A face" controls></pose-space>`.
  *
+ * ```ts
+ * import 'handlebody/element';
+ * const face = document.querySelector('pose-space');
+ * face?.addEventListener('change', ({ detail }) => console.log(detail.at, detail.weights));
+ * if (face) face.at = { valence: 0.6, arousal: 0.4 };
+ * ```
+ *
  * @attr at - Where it begins, by the names of its dimensions: "valence=0.6, arousal=0.4".
  * @csspart plane - The plane with its sliders.
  */

@@ -7,20 +7,21 @@ const own = new Map<string, AnyFigure>();
  * was there before is replaced.
  *
  * ```ts
- * import { define, linePlot, onALine, registerFigure } from 'handlebody/figure';
- * const points = onALine([[1, 2], [3, 1], [4, 3]]);
+ * import type { Shepard } from 'handlebody';
+ * import { define, linePlot, onALine, registerFigure, type StateOf } from 'handlebody/figure';
+ * const parameters = { points: onALine([[1, 2], [3, 1], [4, 3]]) };
  * const figure = define({
  *   id: 'my-figure',
  *   title: 'Through three points',
- *   parameters: { points },
+ *   parameters,
  *   presets: [{ id: 'first', name: 'As it begins', look: 'The curve passes through the points.', state: {} }],
  *   make: (hb, { points: set }) => hb.shepard({ dimension: 1, points: set.places, values: set.values }),
  *   panels: {
- *     plot: linePlot({
+ *     plot: linePlot<Shepard, StateOf<typeof parameters>>({
  *       label: 'A curve through three points',
  *       frame: [0, 5, 0, 4],
  *       points: { points: 'points' },
- *       draw: (plot, f: { evaluate(xs: Float64Array, out: Float64Array): unknown }) => plot.curve('Shepard', f),
+ *       draw: (plot, f) => plot.curve('Shepard', f),
  *     }),
  *   },
  * });

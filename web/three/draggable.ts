@@ -68,6 +68,15 @@ export function draggable(object: Object3D, body: BodyData, options: DraggableOp
   return new Draggable(object, body, options);
 }
 
+/**
+ * An object that is deformed by dragging, as `draggable` makes it.
+ *
+ * ```ts
+ * const dog: Draggable = draggable(gltf.scene, body, { hb, camera, container });
+ * dog.setTarget(0, dog.target(0).add(new Vector3(0, 0.1, 0)));
+ * if (dog.update()) renderer.render(scene, camera);
+ * ```
+ */
 export class Draggable {
   readonly object: Object3D;
   readonly overlay: HandleOverlay;

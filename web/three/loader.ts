@@ -55,6 +55,10 @@ export function handlebodyPlugin(parser: GLTFParser): HandlebodyGLTFPlugin {
  * Reads HANDLEBODY_body and HANDLEBODY_pose_space when the scene is there. A file with a damaged extension, or one baked for other
  * positions, fails to load with a `HandlebodyError`: 'body-version', 'body-invalid', 'body-mismatch', 'wasm-unavailable', 'file-unsupported',
  * 'file-invalid', 'example-shape-mismatch' or 'example-not-finite'.
+ *
+ * ```ts
+ * new GLTFLoader().register((parser) => new HandlebodyGLTFPlugin(parser));
+ * ```
  */
 export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   readonly name = HANDLEBODY_BODY;

@@ -22,14 +22,25 @@ interface Follower {
  *
  * ```ts
  * const [space] = handlebodyData(gltf).poseSpaces;
- * const face = poseDriver(hb, space, gltf.scene);
- * face.set([0.6, 0.4]); // valence and arousal
+ * if (space) poseDriver(hb, space, gltf.scene).set([0.6, 0.4]); // valence and arousal
  * ```
  */
 export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace, object?: Object3D): PoseDriver {
   return new PoseDriver(hb, space, object);
 }
 
+/**
+ * A model that goes to places of its pose space, as `poseDriver` makes it.
+ *
+ * ```ts
+ * const [space] = handlebodyData(gltf).poseSpaces;
+ * if (space) {
+ *   const face: PoseDriver = poseDriver(hb, space);
+ *   face.set([0.6, 0.4]);
+ *   console.log(face.weights);
+ * }
+ * ```
+ */
 export class PoseDriver {
   /** One number an example, at the place that was set last. */
   readonly weights: Float64Array;

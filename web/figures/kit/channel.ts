@@ -82,6 +82,13 @@ export interface RangeOptions<T> {
   readonly rare?: boolean;
 }
 
+/**
+ * A number on a slider, which is even in the number or in its logarithm.
+ *
+ * ```ts
+ * const width = range('Width', { from: 0.2, to: 4, value: 1, scale: 'log' });
+ * ```
+ */
 export function range(label: string, { from, to, value, scale = 'even', step = 0.1, rare = false }: RangeOptions<number>): Range {
   const low = scale === 'log-zero' ? 0 : from;
   return {
@@ -101,7 +108,13 @@ export function range(label: string, { from, to, value, scale = 'even', step = 0
   };
 }
 
-/** As `range`; "auto" is one of its values. */
+/**
+ * As `range`; "auto" is one of its values.
+ *
+ * ```ts
+ * const smoothness = autoRange('Smoothness', { from: 1e-9, to: 1, value: 'auto', scale: 'log' });
+ * ```
+ */
 export function autoRange(label: string, options: RangeOptions<number | 'auto'>): AutoRange {
   const numbers = range(label, { ...options, value: options.from });
   return {
@@ -113,7 +126,13 @@ export function autoRange(label: string, options: RangeOptions<number | 'auto'>)
   };
 }
 
-/** Options by their values, or as a list where that has words to explain them. It begins with the first one, or with `value`. */
+/**
+ * Options by their values, or as a list where that has words to explain them. It begins with the first one, or with `value`.
+ *
+ * ```ts
+ * const kernel = choice('Kernel', { gaussian: 'Gaussian', cubic: 'Cubic' });
+ * ```
+ */
 export function choice<T extends string>(
   label: string,
   given: readonly Option<T>[] | Readonly<Record<T, string>>,
@@ -135,6 +154,13 @@ export function choice<T extends string>(
   };
 }
 
+/**
+ * A switch.
+ *
+ * ```ts
+ * const shown = toggle('Show the kernels', true);
+ * ```
+ */
 export function toggle(label: string, initial = false, { rare = false }: { readonly rare?: boolean } = {}): Switch {
   return {
     type: 'switch',

@@ -133,6 +133,21 @@ export interface Made {
   dispose?(): void;
 }
 
+/**
+ * A figure, by what can be set, what the solver makes of that and what is drawn and told of it.
+ *
+ * ```ts
+ * const figure = define({
+ *   id: 'mean',
+ *   title: 'The mean of three numbers',
+ *   parameters: { first: range('First', { from: 0, to: 10, value: 1 }) },
+ *   presets: [{ id: 'first', name: 'As it begins', look: 'The mean follows the slider.', state: {} }],
+ *   make: (hb, { first }) => hb.shepard({ dimension: 1, points: [0, 1, 2], values: [first, 2, 3] }),
+ *   panels: {},
+ *   told: (f) => [['mean', f.evaluate([1])[0] ?? 0]],
+ * });
+ * ```
+ */
 export function define<const C extends Channels, M extends Made>(figure: Figure<C, M>): Figure<C, M> {
   return figure;
 }

@@ -37,7 +37,17 @@ export interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
   draw(plot: LinePlot<M, S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
 }
 
-/** A panel with curves over a line, and handles on it. */
+/**
+ * A panel with curves over a line, and handles on it.
+ *
+ * ```ts
+ * const panel = linePlot({
+ *   label: 'A line',
+ *   frame: [0, 5, 0, 5],
+ *   draw: (plot) => plot.curve('Line', { evaluate: (xs, out) => out.set(xs) }),
+ * });
+ * ```
+ */
 export function linePlot<M, S>(options: LinePlotOptions<M, S>): Panel<M, S> {
   const { shown, draw } = options;
   return {
@@ -68,7 +78,17 @@ export interface CurveOptions {
   readonly stale?: boolean;
 }
 
-/** What a figure draws with: curves and handles are named anew for each frame. */
+/**
+ * What a figure draws with: curves and handles are named anew for each frame.
+ *
+ * ```ts
+ * const panel = linePlot({
+ *   label: 'A parabola',
+ *   frame: [0, 5, 0, 25],
+ *   draw: (plot: LinePlot<object, object>) => plot.curve('Parabola', { evaluate: (xs, out) => out.set(xs.map((x) => x * x)) }),
+ * });
+ * ```
+ */
 export class LinePlot<M, S> {
   readonly element: HTMLElement;
   readonly #kit: Kit<S, M>;

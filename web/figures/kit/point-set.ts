@@ -11,17 +11,35 @@ export interface PointSet {
 /** More than these cannot be told apart. */
 export const MOST_POINTS = 60;
 
-/** As every interpolant takes them. */
+/**
+ * As every interpolant takes them.
+ *
+ * ```ts
+ * const f = hb.shepard(dataOf(onALine([[1, 2], [3, 1]]).initial));
+ * ```
+ */
 export function dataOf({ dimension, places, values }: PointSet): { dimension: 1 | 2; points: number[]; values: number[] } {
   return { dimension, points: [...places], values: [...values] };
 }
 
-/** A channel of points on a line, from places and values. */
+/**
+ * A channel of points on a line, from places and values.
+ *
+ * ```ts
+ * const points = onALine([[1, 2], [3, 1], [4, 3]]);
+ * ```
+ */
 export function onALine(points: readonly (readonly [x: number, value: number])[]): Channel<PointSet> {
   return channelOf({ dimension: 1, places: points.map(([x]) => x), values: points.map(([, value]) => value) });
 }
 
-/** A channel of points in the plane. */
+/**
+ * A channel of points in the plane.
+ *
+ * ```ts
+ * const points = inThePlane([[0, 0, 1], [1, 0, 2], [0, 1, 3]]);
+ * ```
+ */
 export function inThePlane(points: readonly (readonly [x: number, y: number, value: number])[]): Channel<PointSet> {
   return channelOf({
     dimension: 2,
