@@ -81,6 +81,22 @@ describe('one tag, with a script from another origin', () => {
     expect(said).toEqual([]);
   });
 
+  it('tells those who do not see it what its handles are, and which side they turned to the front', async () => {
+    const views = 'views="front: It looks past you. | right: It looks at you."';
+    const { page } = await tagPage(browser, dog(`camera="10deg 10deg" ${views}`));
+    await loaded(page);
+    const picture = page.locator('handle-body [part=viewport]');
+    expect(await picture.getAttribute('aria-description')).toBe('Handles: Paw, Nose.');
+    const said = () => page.locator('handle-body [role=status].unseen').textContent();
+    expect(await said()).toBe('');
+    await picture.focus();
+    for (let i = 0; i < 4; i++) await page.keyboard.press('ArrowRight');
+    await soon(said).toMatch(/^Seen from the (right\. It looks at you\.|left\.)$/);
+    await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('views', 'top: A back'));
+    await soon(async () => (await eventsOf(page)).at(-1)?.[1]?.code).toBe('invalid-views');
+    expect(await violations(page)).toEqual([]);
+  });
+
   it('shifts nothing when it comes, and axe finds nothing, light and dark', async () => {
     const { page } = await tagPage(browser, dog('controls'), { before: watchShifts });
     await loaded(page);

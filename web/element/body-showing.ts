@@ -8,6 +8,7 @@ import type { ModelOptions, ModelShowing } from './model-element.ts';
 import { runtime } from './runtime.ts';
 import { type SharedModel, shareModel } from './shared-model.ts';
 import { type CameraState, ViewFrame } from './view-frame.ts';
+import type { Views } from './views-text.ts';
 
 type Place = readonly [x: number, y: number, z: number];
 
@@ -78,7 +79,6 @@ export class BodyShowing implements ModelShowing {
   readonly #options: BodyOptions;
   readonly #model: SharedModel;
   readonly #frame: ViewFrame;
-  #speaking: ReturnType<typeof setTimeout> | undefined;
   #drag: Draggable | undefined;
   readonly #step = () => this.#advance();
 
@@ -102,6 +102,10 @@ export class BodyShowing implements ModelShowing {
 
   set controls(shown: boolean) {
     this.#frame.controls = shown;
+  }
+
+  set views(views: Views) {
+    this.#frame.views = views;
   }
 
   get handles(): readonly AskedHandle[] {
@@ -135,7 +139,7 @@ export class BodyShowing implements ModelShowing {
       ...(asked && { handles: asked }),
     });
     this.#drag = drag;
-    for (let i = 0; i < drag.handles.length; i++) drag.overlay.element(i)?.setAttribute('part', 'handle');
+    this.#name(drag);
     if (state) this.move(state.targets);
     this.#frame.view.animate(this.#step);
   }
@@ -143,7 +147,7 @@ export class BodyShowing implements ModelShowing {
   /** Other handles, at rest. Throws what the solver throws, and the former ones stay. */
   hold(handles: readonly AskedHandle[]): void {
     this.#drag?.setHandles(handles);
-    for (let i = 0; i < handles.length; i++) this.#drag?.overlay.element(i)?.setAttribute('part', 'handle');
+    if (this.#drag) this.#name(this.#drag);
   }
 
   move(targets: readonly Place[]): void {
@@ -161,10 +165,15 @@ export class BodyShowing implements ModelShowing {
   }
 
   dispose(): void {
-    clearTimeout(this.#speaking);
     this.#drag?.dispose();
     this.#frame.dispose();
     this.#model.release();
+  }
+
+  /** Tells style sheets and those who do not see them what the handles are. */
+  #name({ handles, overlay }: Draggable): void {
+    for (let i = 0; i < handles.length; i++) overlay.element(i)?.setAttribute('part', 'handle');
+    this.#frame.parts = `Handles: ${handles.map(({ name }, i) => name ?? `Handle ${i + 1}`).join(', ')}.`;
   }
 
   #advance(): boolean {
@@ -180,9 +189,6 @@ export class BodyShowing implements ModelShowing {
     const name = drag.handles[i]?.name ?? `Handle ${i + 1}`;
     const to = drag.target(i).toArray() as Place;
     this.#options.onChange({ index: i, name, to });
-    clearTimeout(this.#speaking);
-    this.#speaking = setTimeout(() => {
-      this.#frame.spoken.textContent = `${name}: ${drag.overlay.description(i)}.`;
-    }, 700);
+    this.#frame.say(() => `${name}: ${drag.overlay.description(i)}.`);
   }
 }

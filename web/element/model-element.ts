@@ -1,6 +1,7 @@
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
 import { ElementBase, type Showing } from './element-base.ts';
+import { readViews, type Views } from './views-text.ts';
 
 /** What every model is shown with. */
 export interface ModelOptions {
@@ -9,6 +10,8 @@ export interface ModelOptions {
   readonly stage: HTMLElement;
   readonly camera: string;
   readonly controls: boolean;
+  /** What is told of it as it is seen from its sides. */
+  readonly views: Views;
   readonly progress: Progress;
   readonly signal: AbortSignal;
   readonly onPart: (part: number | undefined) => void;
@@ -21,6 +24,7 @@ export interface ModelShowing extends Showing {
   readonly state: unknown;
   alt: string;
   controls: boolean;
+  views: Views;
   /** From where it is seen: "58deg 14deg". */
   look(angles: string): void;
 }
@@ -36,12 +40,13 @@ export interface ModelShowing extends Showing {
  * @attr src - The address of a GLB.
  * @attr {boolean} controls - Whether there are buttons for the camera, and more where the element has more.
  * @attr camera - From where it is seen, azimuth and height: "58deg 14deg".
+ * @attr views - What is told to those who do not see it when they turn it, by sides: "front: It looks at you. | left: It looks to the left."
  * @csspart viewport - The picture and what lies on it.
  * @csspart canvas - The picture.
  * @csspart controls - The buttons for the camera.
  */
 export abstract class ModelElement extends ElementBase {
-  static override observedAttributes = [...ElementBase.observedAttributes, 'src', 'controls', 'camera'];
+  static override observedAttributes = [...ElementBase.observedAttributes, 'src', 'controls', 'camera', 'views'];
   /** @internal */
   protected shown: ModelShowing | undefined;
   /** As it was left when it was given back. @internal */
@@ -63,6 +68,14 @@ export abstract class ModelElement extends ElementBase {
     this.toggleAttribute('controls', shown);
   }
 
+  get views(): string {
+    return this.getAttribute('views') ?? '';
+  }
+
+  set views(descriptions: string) {
+    this.setAttribute('views', descriptions);
+  }
+
   get camera(): string {
     return this.getAttribute('camera') ?? '';
   }
@@ -78,7 +91,7 @@ export abstract class ModelElement extends ElementBase {
     if (!this.src) throw new PageError('no-source', 'There is no model to show.', 'Give the address of a GLB as src.');
     const { alt, stage, camera, controls, progress } = this;
     const shown = await this.show({
-      ...{ src: new URL(this.src, document.baseURI), alt, stage, camera, controls, progress, signal },
+      ...{ src: new URL(this.src, document.baseURI), alt, stage, camera, controls, views: readViews(this.views), progress, signal },
       onPart: (part) => this.dispatchEvent(new CustomEvent('progress', { detail: { part } })),
       onFirst: () => this.first(),
       onError: (error) => (isTrap(error) ? this.tell(stopped(), () => this.#anew()) : this.tell(error)),
@@ -100,6 +113,7 @@ export abstract class ModelElement extends ElementBase {
     } else if (attribute === 'camera') shown?.look(this.camera);
     else if (attribute === 'controls' && shown) shown.controls = this.controls;
     else if (attribute === 'alt' && shown) shown.alt = this.alt;
+    else if (attribute === 'views' && shown) this.attempt(() => Object.assign(shown, { views: readViews(this.views) }));
   }
 
   /** With another solver, as it was. */

@@ -11,6 +11,7 @@ import { PosePlane } from './pose-plane.ts';
 import { runtime } from './runtime.ts';
 import { type SharedModel, shareModel } from './shared-model.ts';
 import { type CameraState, ViewFrame } from './view-frame.ts';
+import type { Views } from './views-text.ts';
 
 /** Somebody went to a place: the detail of the event "change". */
 export interface PlaceChange {
@@ -114,6 +115,10 @@ export class PoseShowing implements ModelShowing {
 
   set alt(words: string) {
     this.#frame.alt = words;
+  }
+
+  set views(views: Views) {
+    this.#frame.views = views;
   }
 
   set controls(shown: boolean) {
