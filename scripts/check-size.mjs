@@ -9,7 +9,7 @@ import { runMain } from './lib/run.mjs';
 const SITE = at('build', 'site');
 const PAGE = 'studio/index.html';
 /** The smaller wasm may take 185 kB of it (.size-limit.json). */
-const BUDGET = { withThree: 405_000, withoutThree: 248_000 };
+const BUDGET = { withThree: 406_500, withoutThree: 248_000 };
 
 /** Modules that are asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm. @type {RegExp[]} */
 const LATER = [/^worker\//];
