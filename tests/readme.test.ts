@@ -38,7 +38,7 @@ beforeAll(() => {
 });
 
 describe("the README's examples", () => {
-  it('are there', () => expect(examples).toHaveLength(5));
+  it('are there', () => expect(examples).toHaveLength(6));
 
   it('are about ten lines', () => {
     for (const { code } of examples)
@@ -89,7 +89,7 @@ describe("the README's examples", () => {
   });
 
   it('bend the beam: hard constraints are met, the volume is kept, and space deforms with it', async () => {
-    const { irbf, volumeRatio, distortion, flips, condition, anywhere } = await import(/* @vite-ignore */ examples[1]?.file ?? '');
+    const { irbf, volumeRatio, distortion, flips, condition, anywhere } = await import(/* @vite-ignore */ examples[2]?.file ?? '');
     const end = Array.from(irbf.evaluate([2, 0, 0]) as Float64Array);
     expect(Math.hypot((end[0] ?? 0) - 2, (end[1] ?? 0) - 1, end[2] ?? 0)).toBeLessThan(1e-6);
     expect(Math.abs(volumeRatio - 1)).toBeLessThan(0.1);
@@ -100,7 +100,7 @@ describe("the README's examples", () => {
   });
 
   it('blend the faces: each example is met at its own place', async () => {
-    const { space, examples: faces, shape } = await import(/* @vite-ignore */ examples[2]?.file ?? '');
+    const { space, examples: faces, shape } = await import(/* @vite-ignore */ examples[3]?.file ?? '');
     expect(shape).toHaveLength(3);
     for (const face of faces) {
       const got = Array.from(space.evaluate(face.at) as Float64Array);
@@ -111,7 +111,7 @@ describe("the README's examples", () => {
   });
 
   it('pass through their points, gently or not', async () => {
-    const { data, surface, heights, slope, report, gentle } = await import(/* @vite-ignore */ examples[3]?.file ?? '');
+    const { data, surface, heights, slope, report, gentle } = await import(/* @vite-ignore */ examples[4]?.file ?? '');
     expect(heights[0]).toBeCloseTo(2, 6);
     data.values.forEach((value: number, i: number) => {
       expect(surface.evaluate(data.points.slice(2 * i, 2 * i + 2))[0]).toBeCloseTo(value, 6);
@@ -123,7 +123,7 @@ describe("the README's examples", () => {
   });
 
   it('bend the plane: its right end stands upright, its left end stays', async () => {
-    const { mesh, bent, weights } = await import(/* @vite-ignore */ examples[4]?.file ?? '');
+    const { mesh, bent, weights } = await import(/* @vite-ignore */ examples[5]?.file ?? '');
     expect(weights).toHaveLength((mesh.positions.length / 3) * 2);
     for (let v = 0; v < mesh.positions.length / 3; v++) {
       const [x, y] = mesh.positions.slice(3 * v, 3 * v + 2);
