@@ -6,6 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { HandleBodyElement, HandleFigureElement, PoseSpaceElement } from '../../web/element/index.ts';
 import { ball, glb } from './support/files.ts';
 import { violations } from './support/manners.ts';
+import { otherSite } from './support/other-site.ts';
 import { frames, launch, loseContext, soon } from './support/studio.ts';
 import { eventsOf, loaded, tagPage } from './support/tag-page.ts';
 
@@ -90,7 +91,7 @@ describe('one tag, with a script from another origin', () => {
     const said = () => page.locator('handle-body [role=status].unseen').textContent();
     expect(await said()).toBe('');
     await picture.focus();
-    for (let i = 0; i < 4; i++) await page.keyboard.press('ArrowRight');
+    for (let i = 0; i < 9; i++) await page.keyboard.press('ArrowRight');
     await soon(said).toMatch(/^Seen from the (right\. It looks at you\.|left\.)$/);
     await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('views', 'top: A back'));
     await soon(async () => (await eventsOf(page)).at(-1)?.[1]?.code).toBe('invalid-views');
@@ -276,6 +277,64 @@ describe('what goes wrong', () => {
     expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', code]]);
     expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
     expect(await violations(page)).toEqual([]);
+  });
+
+  it('a model of another site that does not allow it is told of, with the remedy', async () => {
+    const other = await otherSite((_, response) => {
+      response.writeHead(200, { 'content-type': 'model/gltf-binary' });
+      response.end(raw['ball.glb']);
+    });
+    const { page } = await tagPage(browser, `<handle-body src="${other}ball.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`);
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'file-unreadable']]);
+    expect(await page.locator('handle-body [part=message]').textContent()).toContain('Access-Control-Allow-Origin');
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+  });
+
+  it.each([
+    ['loading="soon"', 'unknown-value'],
+    ['reveal="click"', 'unknown-value'],
+    ['camera="left"', 'invalid-camera'],
+    ['views="It looks at you"', 'invalid-views'],
+    ['handles="nose"', 'invalid-handles'],
+  ])(
+    'an attribute that says nothing known is quoted, and the poster stays; set later, the picture: %s',
+    async (attribute, code) => {
+      const [, name = '', value = ''] = attribute.match(/(\w+)="(.*)"/) ?? [];
+      const { page } = await tagPage(
+        browser,
+        `<handle-body src="dog.glb" alt="A dog" ${attribute} ${SIZE}>${POSTER}</handle-body>`,
+      );
+      await page.locator('handle-body [part=message]').waitFor();
+      expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', code]]);
+      expect(await page.locator('handle-body [part=message]').textContent()).toContain(`“${value}”`);
+      expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+      await page.evaluate((known) => document.querySelector('handle-body')?.removeAttribute(known), name);
+      await page.getByRole('button', { name: 'Try again' }).click();
+      await loaded(page);
+      await page.evaluate((known) => document.querySelector('handle-body')?.setAttribute(...known), [name, value] as const);
+      await soon(async () => (await eventsOf(page)).at(-1)?.[1]?.code).toBe(code);
+      expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+      expect(await page.locator('handle-body [part=canvas]').count()).toBe(1);
+    },
+  );
+
+  it('without WebGL a model is told of, and a figure that needs none works', async () => {
+    const tags = `${dog()}<handle-figure name="course-12"></handle-figure>`;
+    const { page } = await tagPage(browser, tags, {
+      before: () => {
+        const original = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: unknown[]) {
+          return /webgl/.test(String(args[0])) ? null : (original as (...all: unknown[]) => unknown).apply(this, args);
+        } as never;
+      },
+    });
+    await loaded(page, 'handle-figure');
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).filter(([type]) => type === 'error').map(([, detail]) => detail?.code)).toEqual([
+      'webgl-unavailable',
+    ]);
+    expect(await page.locator('handle-figure .figure').getAttribute('data-state')).toBe('ready');
   });
 
   it('handles that are none are quoted, and the body keeps its former ones', async () => {
@@ -500,6 +559,16 @@ describe('<handle-figure>', () => {
     await page.clock.fastForward(11_000);
     expect(await page.evaluate(() => (document.querySelector('handle-figure') as unknown as Figure).loaded)).toBe(false);
     expect(await height()).toBeCloseTo(before, -1);
+  });
+
+  it('a state of a newer version is told of as an event, too, and the preset is shown', async () => {
+    const { page } = await tagPage(browser, '<handle-figure name="course-12" state="v99&width=2"></handle-figure>');
+    await loaded(page, 'handle-figure');
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([
+      ['error', 'newer-link'],
+      ['load', undefined],
+    ]);
+    expect(await figure(page, 'course-12').locator('.figure').getAttribute('data-state')).toBe('ready');
   });
 
   it('says so where there is no such figure, and which there are', async () => {

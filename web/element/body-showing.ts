@@ -118,8 +118,8 @@ export class BodyShowing implements ModelShowing {
     return { handles: this.handles, targets, camera: this.#frame.camera };
   }
 
-  /** From where it is seen: "58deg 14deg". */
-  look(angles: string): void {
+  /** From where it is seen: azimuth and height, degrees. */
+  look(angles: readonly number[]): void {
     this.#frame.look(this.#model.object, angles, VIEW, true);
   }
 

@@ -14,6 +14,9 @@ const FORGET = 10_000;
 /** How near to the window an element is when it begins to load. */
 const NEAR = '300px';
 
+/** What the attributes may be that choose among words; where one is left out, it is the first. */
+const CHOICES = { loading: ['lazy', 'eager'], reveal: ['auto', 'manual'] } as const;
+
 /** What an element shows, once it is there. */
 export interface Showing {
   /** What is not seen draws nothing. */
@@ -128,11 +131,22 @@ export abstract class ElementBase extends PageElement {
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
-    if (before === now || !this.isConnected) return;
+    // Those that the page was written with are read when it is connected.
+    if (before === now || !this.#connected) return;
     if (name === 'poster') this.#showPoster();
-    else if (name === 'reveal' && now !== 'manual') this.dismissPoster();
-    else if (name === 'loading' && now === 'eager') this.#begin();
+    else if (name === 'reveal' || name === 'loading') this.#choose(name, now);
     else this.changed(name);
+  }
+
+  #choose(name: keyof typeof CHOICES, value: string | null): void {
+    try {
+      checkChoice(name, value);
+    } catch (error) {
+      this.tell(error);
+      return;
+    }
+    if (name === 'reveal' && value !== 'manual') this.dismissPoster();
+    else if (value === 'eager') this.#begin();
   }
 
   /** Takes the poster away, and loads what is under it. */
@@ -163,14 +177,20 @@ export abstract class ElementBase extends PageElement {
 
   /** Says what went wrong, in place and as an event. What is shown stays. */
   protected tell(error: unknown, again?: () => void): void {
-    const { message, remedy, detail } = explain(error);
+    const { message, remedy } = explain(error);
     const close = button('×', () => this.quiet(), 'dismiss', { 'aria-label': 'Dismiss this message' });
     const retry = again ? [button('Try again', again)] : [];
     const words = h('div', {}, h('p', { class: 'sentence' }, message), h('p', { class: 'remedy' }, remedy), ...retry);
     this.#message.replaceChildren(words, close);
     this.#message.hidden = false;
-    const code = (error as { code?: unknown }).code;
-    const told: ElementError = { code: typeof code === 'string' ? code : (detail ?? 'internal'), message, remedy };
+    this.report(error);
+  }
+
+  /** The event alone, of what is said in place already. */
+  protected report(error: unknown): void {
+    const { message, remedy } = explain(error);
+    const { code } = error as { code?: unknown };
+    const told: ElementError = { code: typeof code === 'string' ? code : 'internal', message, remedy };
     this.dispatchEvent(new CustomEvent('error', { detail: told }));
   }
 
@@ -212,6 +232,7 @@ export abstract class ElementBase extends PageElement {
     this.#work = work;
     this.ariaBusy = 'true';
     try {
+      for (const name of ['loading', 'reveal'] as const) checkChoice(name, this.getAttribute(name));
       const showing = await this.open(work.signal);
       if (work.signal.aborted) {
         showing.dispose();
@@ -249,6 +270,16 @@ export abstract class ElementBase extends PageElement {
     const reveal = this.#isHeld ? [button('Show', () => this.dismissPoster(), 'button')] : [];
     this.#poster.replaceChildren(h('slot', { name: 'poster' }, ...picture), ...reveal);
   }
+}
+
+function checkChoice(name: keyof typeof CHOICES, value: string | null): void {
+  const words: readonly string[] = CHOICES[name];
+  if (value === null || words.includes(value)) return;
+  throw new PageError(
+    'unknown-value',
+    `The attribute ${name} is “${value}”, which it cannot be.`,
+    `Use one of: ${words.join(', ')}.`,
+  );
 }
 
 function cancelled(): PageError {

@@ -18,6 +18,8 @@ interface FigureOptions {
   /** There is a picture. */
   readonly onPicture: () => void;
   readonly onChange: (state: string) => void;
+  /** Of what the figure says in place. */
+  readonly onError: (error: unknown) => void;
 }
 
 export interface FigureShowing {
@@ -51,7 +53,7 @@ export async function showFigure(name: string, options: FigureOptions): Promise<
     if (known && (isAsked || state !== known)) onChange(state);
     [known, isAsked] = [state, false];
   };
-  const live = new Live(figure, { solvers: { runtime, whole }, state: options.state, onChange: change });
+  const live = new Live(figure, { solvers: { runtime, whole }, state: options.state, onChange: change, onError: options.onError });
   const frame = h('div', { class: 'figure-frame', 'data-coming': '' }, live.element);
   stage.replaceChildren(frame);
   options.onFirst();

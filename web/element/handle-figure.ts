@@ -57,6 +57,7 @@ export class HandleFigureElement extends ElementBase {
       signal,
       onFirst: () => this.progress.end(),
       onPicture: () => this.first(),
+      onError: (error) => this.report(error),
       onChange: (state) => this.dispatchEvent(new CustomEvent('change', { detail: { state } })),
     });
     // Another state may have been asked for while it came.

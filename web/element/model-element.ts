@@ -1,5 +1,6 @@
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
+import { readCamera } from './camera-text.ts';
 import { ElementBase, type Showing } from './element-base.ts';
 import { readViews, type Views } from './views-text.ts';
 
@@ -8,7 +9,8 @@ export interface ModelOptions {
   readonly src: URL;
   readonly alt: string;
   readonly stage: HTMLElement;
-  readonly camera: string;
+  /** Azimuth and height, degrees. */
+  readonly camera: readonly number[];
   readonly controls: boolean;
   /** What is told of it as it is seen from its sides. */
   readonly views: Views;
@@ -25,8 +27,8 @@ export interface ModelShowing extends Showing {
   alt: string;
   controls: boolean;
   views: Views;
-  /** From where it is seen: "58deg 14deg". */
-  look(angles: string): void;
+  /** From where it is seen: azimuth and height, degrees. */
+  look(angles: readonly number[]): void;
 }
 
 /**
@@ -89,9 +91,10 @@ export abstract class ModelElement extends ElementBase {
 
   protected override async open(signal: AbortSignal): Promise<Showing> {
     if (!this.src) throw new PageError('no-source', 'There is no model to show.', 'Give the address of a GLB as src.');
-    const { alt, stage, camera, controls, progress } = this;
+    const { alt, stage, controls, progress } = this;
     const shown = await this.show({
-      ...{ src: new URL(this.src, document.baseURI), alt, stage, camera, controls, views: readViews(this.views), progress, signal },
+      ...{ src: new URL(this.src, document.baseURI), alt, stage, controls, progress, signal },
+      ...{ camera: readCamera(this.camera), views: readViews(this.views) },
       onPart: (part) => this.dispatchEvent(new CustomEvent('progress', { detail: { part } })),
       onFirst: () => this.first(),
       onError: (error) => (isTrap(error) ? this.tell(stopped(), () => this.#anew()) : this.tell(error)),
@@ -110,7 +113,7 @@ export abstract class ModelElement extends ElementBase {
     if (attribute === 'src') {
       this.state = undefined;
       this.again();
-    } else if (attribute === 'camera') shown?.look(this.camera);
+    } else if (attribute === 'camera' && shown) this.attempt(() => shown.look(readCamera(this.camera)));
     else if (attribute === 'controls' && shown) shown.controls = this.controls;
     else if (attribute === 'alt' && shown) shown.alt = this.alt;
     else if (attribute === 'views' && shown) this.attempt(() => Object.assign(shown, { views: readViews(this.views) }));

@@ -135,7 +135,7 @@ export class PoseShowing implements ModelShowing {
     return this.#space.examples.map(({ name }, i) => [name, this.#driver?.weights[i] ?? 0]);
   }
 
-  look(angles: string): void {
+  look(angles: readonly number[]): void {
     this.#frame.look(this.#model.object, angles, VIEW, false);
   }
 

@@ -58,9 +58,14 @@ export class ViewFrame {
     this.#tools.hidden = !shown;
   }
 
-  /** From where an object is seen: "58deg 14deg", azimuth and height; `usual` where a number is left out. */
-  look(object: Object3D, angles: string, usual: { readonly azimuth: number; readonly elevation: number }, grounded: boolean): void {
-    const [azimuth = usual.azimuth, elevation = usual.elevation] = (angles.match(/-?[\d.]+/g) ?? []).map(Number);
+  /** From where an object is seen: azimuth and height in degrees; `usual` where a number is left out. */
+  look(
+    object: Object3D,
+    angles: readonly number[],
+    usual: { readonly azimuth: number; readonly elevation: number },
+    grounded: boolean,
+  ): void {
+    const [azimuth = usual.azimuth, elevation = usual.elevation] = angles;
     this.view.frame(object, { azimuth, elevation }, grounded);
   }
 

@@ -11,7 +11,9 @@ export async function fetchModel(
     response = await fetch(url, { signal });
   } catch (cause) {
     if (signal.aborted) throw cause;
-    throw unreadable('The model could not be fetched: the server did not answer.', cause);
+    // Browsers do not say which of the two it was.
+    const elsewhere = url.origin === globalThis.location?.origin ? '' : ', or does not allow its files on pages of other sites';
+    throw unreadable(`The model could not be fetched: the server did not answer${elsewhere}.`, cause, elsewhere && CROSS_ORIGIN);
   }
   if (!response.ok || !response.body) throw unreadable(`The model could not be fetched: the server answered ${response.status}.`);
   // A compressed answer announces its compressed length, which says nothing about the bytes read here.
@@ -31,6 +33,9 @@ export async function fetchModel(
   return new Blob(parts).arrayBuffer();
 }
 
-function unreadable(message: string, cause?: unknown): HandlebodyError {
-  return new HandlebodyError('file-unreadable', { message, remedy: 'Check your connection, then choose the model again.', cause });
+const CROSS_ORIGIN = 'Check the connection and the address; the server has to send “Access-Control-Allow-Origin”.';
+
+function unreadable(message: string, cause?: unknown, remedy = ''): HandlebodyError {
+  const usual = 'Check your connection, then choose the model again.';
+  return new HandlebodyError('file-unreadable', { message, remedy: remedy || usual, cause });
 }

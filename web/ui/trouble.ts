@@ -5,6 +5,8 @@ import { explain } from './explain.ts';
 export class Trouble {
   readonly #area: HTMLElement;
   readonly #returnTo: () => HTMLElement | null;
+  /** Told of what is said, too. */
+  onTell: (error: unknown) => void = () => {};
 
   /** `returnTo` gets the focus when the line goes and had it. */
   constructor(area: HTMLElement, returnTo: () => HTMLElement | null) {
@@ -22,6 +24,7 @@ export class Trouble {
     this.#area.replaceChildren(h('span', {}, `${message} ${remedy}`), ...(retry ? [retry] : []), dismiss);
     this.#area.dataset.code = detail;
     this.#area.hidden = false;
+    this.onTell(error);
   }
 
   clear(): void {

@@ -37,6 +37,8 @@ interface LiveOptions {
   readonly site?: string;
   /** The state has changed and come to rest. A step back should lead to before it where it is another preset. */
   readonly onChange?: (text: string, preset: boolean) => void;
+  /** Of what is said in place as trouble. */
+  readonly onError?: (error: unknown) => void;
 }
 
 interface Disposable {
@@ -108,6 +110,8 @@ export class Live<C extends Channels, M extends Disposable> {
           offerEmbed({ site, name: figure.id, title: this.#layout.title, state: this.state, height: this.element.offsetHeight }),
       }),
     });
+    const { onError } = options;
+    if (onError) for (const line of [this.#layout.trouble, this.#layout.note]) line.onTell = onError;
     Object.assign(this.element, { figure: this });
     this.element.dataset.figure = figure.id;
     this.element.dataset.state = 'loading';
