@@ -3,6 +3,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { GROUND, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -38,20 +39,14 @@ export default defineConfig({
     emptyOutDir: true,
     target: 'es2022',
     manifest: true,
+    // Browsers that our styles are for (light-dark()) preload modules by themselves.
+    modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1000,
     rolldownOptions: {
       input: Object.fromEntries(pages),
       output: {
         codeSplitting: {
-          groups: [
-            // In a chunk of its own: cached over our releases, and told apart by the size budget.
-            { name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ },
-            // What nearly every page needs: many small chunks compress worse than one.
-            {
-              name: 'page',
-              test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\./,
-            },
-          ],
+          groups: [THREE, GROUND, PAGE, VIEW],
         },
       },
     },

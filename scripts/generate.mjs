@@ -133,6 +133,10 @@ function stylesOf(files) {
       .replace('color-scheme: light dark;', '')
       .replace(/^(?!@).*$/gm, (line) => line.replace(/(-?[\d.]+)rem\b/g, 'calc($1 * var(--rem))'))
       .replace(/\s+/g, ' ')
+      // No space and semicolon that says nothing; those around what selectors and sums combine do.
+      .replace(/ ?([{};,>]) ?/g, '$1')
+      .replace(/([\w-]): /g, '$1:')
+      .replaceAll(';}', '}')
       .trim()
   );
 }
@@ -146,7 +150,7 @@ const FIGURE_STYLES = [
 const SHEETS = [
   ['web/element/styles.generated.ts', 'STYLES', [...ELEMENT_STYLES, 'web/element/element.css']],
   // Apart: fetched with what they are for.
-  ['web/element/pad-styles.generated.ts', 'PAD_STYLES', ['web/element/pad.css']],
+  ['web/element/pad-styles.generated.ts', 'PAD_STYLES', ['web/element/pad.css', 'web/element/pose.css']],
   ['web/element/figure-styles.generated.ts', 'FIGURE_STYLES', [...FIGURE_STYLES, 'web/element/figure.css']],
 ];
 for (const [file, name, styles] of SHEETS) {

@@ -2,13 +2,24 @@
 // handlebody.anywidget.js, which is all of it in one file, for notebooks.
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
+import { ELEMENT, GROUND, THREE, VIEW } from './chunks.mjs';
 import { at } from './paths.mjs';
 
 /** Where Vite's list of which file asks for which lies. */
 export const ELEMENTS_MANIFEST = 'standalone/manifest.json';
 
+/**
+ * Vite's own waits for style sheets and preloads of what is imported lazily: here are none.
+ * @type {import('vite').Plugin}
+ */
+const withoutPreloads = {
+  name: 'without-preloads',
+  enforce: 'pre',
+  load: (id) => (id === '\0vite/preload-helper.js' ? 'export const __vitePreload = (load) => load();' : undefined),
+};
+
 /** What both builds have alike. @type {import('vite').InlineConfig} */
-const COMMON = { configFile: false, root: at('web'), publicDir: false, base: './', logLevel: 'warn' };
+const COMMON = { configFile: false, root: at('web'), publicDir: false, base: './', logLevel: 'warn', plugins: [withoutPreloads] };
 /** @satisfies {import('vite').BuildEnvironmentOptions} */
 const BUILD = { emptyOutDir: false, target: 'es2022', modulePreload: /** @type {const} */ (false) };
 
@@ -33,8 +44,7 @@ export async function buildStandalone(folder, { embed = false } = {}) {
         output: {
           entryFileNames: '[name].js',
           chunkFileNames: 'standalone/[name]-[hash].js',
-          // In a chunk of its own: cached over our releases, and told apart by the size budget.
-          codeSplitting: { groups: [{ name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ }] },
+          codeSplitting: { groups: [THREE, GROUND, ELEMENT, VIEW] },
         },
       },
     },
@@ -53,7 +63,7 @@ async function inOneFile(entry) {
   const { build } = await import('vite');
   const made = await build({
     ...COMMON,
-    plugins: [withoutWorkerFiles],
+    plugins: [withoutPreloads, withoutWorkerFiles],
     build: {
       ...BUILD,
       write: false,

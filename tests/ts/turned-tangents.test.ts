@@ -3,7 +3,9 @@ import { BufferAttribute, type BufferGeometry, Group, Matrix3, Matrix4, Mesh, Qu
 import { PlaneGeometry } from 'three/src/geometries/PlaneGeometry.js';
 import { TorusGeometry } from 'three/src/geometries/TorusGeometry.js';
 import { describe, expect, it } from 'vitest';
+import { fetchTangents } from '../../web/three/fetch-tangents.ts';
 import { DeformedGeometry, meshFromObject } from '../../web/three/index.ts';
+import { LiveGeometry } from '../../web/three/live-geometry.ts';
 
 type Map3 = (p: Vector3) => Vector3;
 const row = (array: ArrayLike<number>, v: number, width: number) =>
@@ -165,6 +167,22 @@ describe('tangents', () => {
       (n) => n,
     );
     expect(given.geometry.getAttribute('tangent').array).toEqual(before);
+  });
+
+  it('are turned by what is fetched where any mesh of an object has some', async () => {
+    const bare = new Mesh(plane(4));
+    expect(await fetchTangents(new Group().add(bare))).toBeUndefined();
+
+    const mesh = ring();
+    const { parts, mesh: joined, normals } = meshFromObject(mesh);
+    const turned = (at: Vector3) => at.set(-at.y, at.x, at.z);
+    const quarter = (from: ArrayLike<number>) =>
+      Float32Array.from({ length: from.length }, (_, i) => turned(row(from, Math.floor(i / 3), 3)).toArray()[i % 3] as number);
+    const rest = mesh.geometry.getAttribute('tangent').array.slice();
+    const shown = new LiveGeometry(parts, await fetchTangents(new Group().add(bare, new Group().add(mesh))));
+    shown.update(quarter(joined.positions), quarter(normals ?? []));
+    expect(farthestOff(mesh.geometry.getAttribute('tangent').array, (v) => turned(row(rest, v, 4)))).toBeLessThan(1e-3);
+    shown.dispose();
   });
 
   it('of vertices without a triangle stay as near to rest as the normal lets them', () => {

@@ -1,7 +1,10 @@
 import type { BodyData } from '../../wasm/ts/runtime.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { type Draggable, draggable } from '../three/draggable.ts';
+import { Draggable } from '../three/draggable.ts';
+import { fetchTangents } from '../three/fetch-tangents.ts';
 import { meshFromObject } from '../three/geometry.ts';
+import { BareHandles } from '../three/handles.ts';
+import { LiveGeometry, type TangentsOf } from '../three/live-geometry.ts';
 import type { Progress } from '../ui/progress.ts';
 import type { AskedHandle } from './handles-text.ts';
 import type { ModelOptions, ModelShowing } from './model-element.ts';
@@ -51,9 +54,9 @@ export async function showBody(options: BodyOptions): Promise<BodyShowing> {
     // The first picture waits for nothing else.
     options.onFirst();
     const body = model.body ?? (await bake(meshFromObject(model.object).mesh, progress, signal, tell));
-    const hb = await runtime();
+    const [hb, tangents] = await Promise.all([runtime(), fetchTangents(model.object)]);
     signal.throwIfAborted();
-    showing.bring(hb, body);
+    showing.bring(hb, body, tangents);
     return showing;
   } catch (error) {
     showing?.dispose();
@@ -124,14 +127,16 @@ export class BodyShowing implements ModelShowing {
   }
 
   /** The body has come: from now on it can be dragged. */
-  bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData): void {
+  bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData, tangents: TangentsOf | undefined): void {
     const { state, handles, onError } = this.#options;
     const asked = state?.handles ?? handles;
-    const drag = draggable(this.#model.object, body, {
+    const drag = new Draggable(this.#model.object, body, {
       hb,
+      // The element's own style sheet is their style.
+      makeOverlay: (overlay) => new BareHandles(overlay),
+      makeGeometry: (parts) => new LiveGeometry(parts, tangents),
       camera: this.#frame.view.camera,
       container: this.#frame.overlay,
-      unstyled: true,
       onWake: () => this.#frame.view.animate(this.#step),
       onMove: (i) => this.#moved(i),
       onSelect: () => this.#frame.view.invalidate(),

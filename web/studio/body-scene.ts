@@ -1,9 +1,9 @@
 import { type Object3D, Raycaster, Vector2, Vector3 } from 'three';
 import type { Handle } from '../../wasm/ts/runtime.ts';
 import type { Step, View } from '../stage/view.ts';
-import type { DeformedGeometry } from '../three/deformed-geometry.ts';
 import { BareHandles } from '../three/handles.ts';
 import type { LiveBody, Point, Round } from '../three/live-body.ts';
+import type { LiveGeometry } from '../three/live-geometry.ts';
 import { h } from '../ui/dom.ts';
 import { ease, reducedMotion } from '../ui/motion.ts';
 import { BodyPanel, type Steerable } from './body-panel.ts';
@@ -16,7 +16,7 @@ interface BodySceneOptions {
   readonly view: View;
   readonly object: Object3D;
   readonly body: LiveBody;
-  readonly shown: DeformedGeometry;
+  readonly shown: LiveGeometry;
   readonly title: string;
   /** What the first handle says until something is moved. */
   readonly invitation: string;

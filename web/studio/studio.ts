@@ -1,10 +1,11 @@
 import type { BakeWarning, BodyData, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { View } from '../stage/view.ts';
-import { DeformedGeometry } from '../three/deformed-geometry.ts';
 import { farthestVertices } from '../three/farthest.ts';
 import { fetchModel } from '../three/fetch-model.ts';
+import { fetchTangents } from '../three/fetch-tangents.ts';
 import { meshFromObject } from '../three/geometry.ts';
 import { LiveBody } from '../three/live-body.ts';
+import { LiveGeometry } from '../three/live-geometry.ts';
 import { type LoadedModel, loadModel } from '../three/load-model.ts';
 import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
@@ -179,8 +180,9 @@ export class Studio {
     const spread = () =>
       farthestVertices(body.mesh.positions, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
     const points = (body.handles ?? spread()).map(({ name, ...handle }) => ({ name, handle }));
-    const live = new LiveBody(await this.#parts.solver, body, normals);
-    const shown = new DeformedGeometry(parts);
+    const [solver, tangents] = await Promise.all([this.#parts.solver, fetchTangents(model.object)]);
+    const live = new LiveBody(solver, body, normals);
+    const shown = new LiveGeometry(parts, tangents);
     try {
       return new BodyScene({
         ...common,

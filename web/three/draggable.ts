@@ -12,7 +12,9 @@ import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
-import { HandleOverlay } from './handle-overlay.ts';
+import type { ObjectPart } from './geometry.ts';
+import { HandleOverlay, type HandleOverlayOptions } from './handle-overlay.ts';
+import type { BareHandles } from './handles.ts';
 import { LiveBody } from './live-body.ts';
 import { nearestVertex } from './nearest-vertex.ts';
 import { PartFrames } from './part-frames.ts';
@@ -44,6 +46,14 @@ export interface DraggableOptions {
   readonly onError?: (error: unknown) => void;
 }
 
+type Shown = Pick<DeformedGeometry, 'update' | 'pick' | 'dispose'>;
+
+/** What it is made of: pages that want less of it fetch less. */
+interface DraggableMaking {
+  readonly makeOverlay: (options: HandleOverlayOptions) => BareHandles;
+  readonly makeGeometry: (parts: readonly ObjectPart[]) => Shown;
+}
+
 export const DRAGGABLE_DEFAULTS = { iterations: 4, count: 6 } as const;
 
 /** A handle this near to rest, in diagonals, is at rest. */
@@ -65,7 +75,11 @@ const AT_REST = 5e-4;
  * ```
  */
 export function draggable(object: Object3D, body: BodyData, options: DraggableOptions): Draggable {
-  return new Draggable(object, body, options);
+  return new Draggable(object, body, {
+    ...options,
+    makeOverlay: (overlay) => new HandleOverlay(overlay),
+    makeGeometry: (parts) => new DeformedGeometry(parts),
+  });
 }
 
 /**
@@ -79,10 +93,10 @@ export function draggable(object: Object3D, body: BodyData, options: DraggableOp
  */
 export class Draggable {
   readonly object: Object3D;
-  readonly overlay: HandleOverlay;
+  readonly overlay: BareHandles;
   readonly #options: DraggableOptions;
   readonly #live: LiveBody;
-  readonly #shown: DeformedGeometry;
+  readonly #shown: Shown;
   readonly #place = new Vector3();
   readonly #frame = new Matrix4();
   readonly #frames: PartFrames;
@@ -94,18 +108,18 @@ export class Draggable {
   #awake = false;
 
   /** @internal Use `draggable`. */
-  constructor(object: Object3D, body: BodyData, options: DraggableOptions) {
+  constructor(object: Object3D, body: BodyData, options: DraggableOptions & DraggableMaking) {
     [this.object, this.#options] = [object, options];
     const { parts, normals } = bakedFrom(object, body);
     this.#live = new LiveBody(options.hb, body, normals);
     this.#frames = new PartFrames(parts);
     try {
-      this.#shown = new DeformedGeometry(parts);
+      this.#shown = options.makeGeometry(parts);
     } catch (error) {
       this.#live.dispose();
       throw error;
     }
-    this.overlay = new HandleOverlay({
+    this.overlay = options.makeOverlay({
       camera: options.camera,
       container: options.container,
       onMove: (i, place) => this.#bring(i, place),

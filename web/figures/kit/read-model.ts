@@ -1,8 +1,6 @@
 import type { Mesh } from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { embeddedTextures } from '../../three/embedded-textures.ts';
 import { meshFromObject } from '../../three/geometry.ts';
-import { handlebodyPlugin } from '../../three/loader.ts';
+import { loadModel } from '../../three/load-model.ts';
 import { notFetched } from '../../ui/lazy.ts';
 
 const models = new Map<string, ReturnType<typeof fetchOnce>>();
@@ -18,10 +16,8 @@ export function fetchModel(file: string, what: string) {
 async function fetchOnce(file: string, what: string) {
   const response = await fetch(new URL(`../../models/${file}`, document.baseURI)).catch(() => undefined);
   if (!response?.ok) throw await notFetched(what);
-  const gltf = await embeddedTextures(new GLTFLoader())
-    .register(handlebodyPlugin)
-    .parseAsync(await response.arrayBuffer(), '');
-  const { mesh } = meshFromObject(gltf.scene);
-  gltf.scene.traverse((part) => (part as Partial<Mesh>).geometry?.dispose());
+  const { object } = await loadModel(await response.arrayBuffer());
+  const { mesh } = meshFromObject(object);
+  object.traverse((part) => (part as Partial<Mesh>).geometry?.dispose());
   return { positions: Float32Array.from(mesh.positions), triangles: Uint32Array.from(mesh.triangles) };
 }

@@ -1,0 +1,19 @@
+// Which modules make a chunk in both builds of pages, the site's and the elements': small ones apart compress worse than together.
+
+/** In a chunk of its own: cached over our releases, and told apart by the size budget. */
+export const THREE = { name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ };
+
+/** What reads models and the solver have alike, and must not bring each other along. */
+export const GROUND = { name: 'ground', test: /wasm[\\/]ts[\\/](errors|hash)\./ };
+
+/** What a 3D view consists of. */
+export const VIEW = { name: 'view', test: /web[\\/](stage[\\/]|three[\\/]handles\.)/ };
+
+/** What nearly every page needs. */
+export const PAGE = {
+  name: 'page',
+  test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\./,
+};
+
+/** The same for pages with elements, and with it what those are until they show something. */
+export const ELEMENT = { name: 'element', test: new RegExp(`${PAGE.test.source}|web[\\\\/]element[\\\\/]index\\.`) };
