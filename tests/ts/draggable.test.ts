@@ -118,6 +118,19 @@ describe('draggable', () => {
     expect(memory.at(-1)).toBe(memory[4]);
   });
 
+  it('moves a handle by a key before anything was placed from where its point is', () => {
+    const object = model();
+    object.position.set(3, -2, 1);
+    const drag = make(object);
+    const from = drag.target(2);
+    const key = Object.assign(new Event('keydown', { cancelable: true }), { key: 'ArrowUp' });
+    drag.overlay.element(2)?.dispatchEvent(key);
+    const by = drag.target(2).distanceTo(from) / body.normalization.diagonal;
+    expect(by).toBeGreaterThan(0);
+    expect(by).toBeLessThan(0.02);
+    drag.dispose();
+  });
+
   it('shares a body among the copies on a page, whichever goes first', () => {
     const [first, second] = [make(), make()];
     first.setTarget(0, first.target(0).add(new Vector3(0, 0.2, 0)));

@@ -69,6 +69,11 @@ describe('a figure', () => {
     expect((await told(page)).smooth).toBe('yes');
     expect(workers.map((url) => url.slice(0, 5))).toEqual(['data:']);
     expect(await page.locator('.trouble:visible, .notice:visible').count()).toBe(0);
+    // The dog is in no file but its own: what was shown stays, with a sentence.
+    await page.getByRole('button', { name: 'Dog', exact: true }).press('Enter');
+    await soon(() => page.locator('.trouble').textContent()).toContain('The dog could not be fetched.');
+    expect(await page.getByRole('button', { name: 'Bar', exact: true }).getAttribute('aria-pressed')).toBe('true');
+    expect((await told(page)).smooth).toBe('yes');
     expect(asked).toEqual([page.url()]);
     expect(said).toEqual([]);
   });

@@ -1,7 +1,7 @@
 import type { BodyShowing, BodyState, HandleChange } from './body-showing.ts';
 import type { HandleBodyEvents } from './events.ts';
 import { type AskedHandle, readHandles, writeHandles } from './handles-text.ts';
-import { ModelElement, type ModelOptions } from './model-element.ts';
+import { ModelElement, type ModelOptions, readOr } from './model-element.ts';
 
 /**
  * A model that is deformed by dragging: `<handle-body src="dog.glb" alt="A dog">`. A model that was not baked is baked when it comes.
@@ -27,7 +27,7 @@ export class HandleBodyElement extends ModelElement {
 
   /** Those that are shown; setting it, to text as the attribute has it or to a list, replaces them, at rest. */
   get handles(): readonly AskedHandle[] {
-    return this.shown?.handles ?? readHandles(this.getAttribute('handles') ?? '');
+    return this.shown?.handles ?? readOr([], () => readHandles(this.getAttribute('handles') ?? ''));
   }
 
   set handles(handles: readonly AskedHandle[] | string) {

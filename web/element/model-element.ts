@@ -137,6 +137,15 @@ export abstract class ModelElement extends ElementBase {
   }
 }
 
+/** What a property is while its attribute says nothing that can be read, which is told when the model comes: reading throws nothing. */
+export function readOr<T>(other: T, read: () => T): T {
+  try {
+    return read();
+  } catch {
+    return other;
+  }
+}
+
 /** The solver has ended, and what it made with it. */
 function isTrap(error: unknown): boolean {
   return (error as { code?: unknown }).code === 'wasm-trapped';

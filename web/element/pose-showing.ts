@@ -69,7 +69,7 @@ async function show(model: SharedModel, options: PoseOptions): Promise<PoseShowi
     options.onFirst();
     const hb = await runtime();
     signal.throwIfAborted();
-    showing.bring(poseDriver(hb, space), at);
+    showing.bring(poseDriver(hb, space, model.object), at);
     return showing;
   } catch (error) {
     showing.dispose();

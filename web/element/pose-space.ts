@@ -1,5 +1,5 @@
 import type { PoseSpaceEvents } from './events.ts';
-import { ModelElement, type ModelOptions } from './model-element.ts';
+import { ModelElement, type ModelOptions, readOr } from './model-element.ts';
 import { type NamedPlace, readPlace } from './place-text.ts';
 import type { PlaceChange, PoseShowing, PoseState } from './pose-showing.ts';
 
@@ -26,7 +26,7 @@ export class PoseSpaceElement extends ModelElement {
 
   /** Where the face is, by the names of its dimensions; setting it, or text as the attribute has it, goes there. */
   get at(): NamedPlace {
-    return this.shown?.state.at ?? this.state?.at ?? readPlace(this.getAttribute('at') ?? '');
+    return this.shown?.state.at ?? this.state?.at ?? readOr({}, () => readPlace(this.getAttribute('at') ?? ''));
   }
 
   set at(place: NamedPlace | string) {

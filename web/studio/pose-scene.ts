@@ -34,7 +34,7 @@ export class PoseScene implements StudioScene {
   constructor(options: PoseSceneOptions) {
     this.#options = options;
     this.object = options.object;
-    this.#driver = poseDriver(options.solver, options.space);
+    this.#driver = poseDriver(options.solver, options.space, options.object);
     this.#panel = new PosePanel(
       options.title,
       options.space,

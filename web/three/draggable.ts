@@ -200,14 +200,8 @@ export class Draggable {
 
   /** Puts the handles where their points are on the screen. */
   place(): void {
-    const { overlay } = this;
-    this.#frames.update();
-    this.#carriers.forEach((vertex, i) => {
-      const { x, y, z } = this.target(i, this.#place).applyMatrix4(this.#frames.of(vertex, this.#frame));
-      overlay.setPosition(i, x, y, z);
-      if (i === 0) overlay.step = this.#live.data.normalization.diagonal * this.#frame.getMaxScaleOnAxis() * 0.01;
-    });
-    overlay.update();
+    this.#seat();
+    this.overlay.update();
   }
 
   /**
@@ -253,7 +247,19 @@ export class Draggable {
       'vertex' in handle ? handle.vertex : nearestVertex(positions, this.#rest[i] as Vector3),
     );
     this.overlay.set(handles.map(({ name }, i) => ({ name: name ?? `Handle ${i + 1}`, position: [0, 0, 0] })));
+    this.#seat();
     this.#wake();
+  }
+
+  /** Gives the handles the places of their points in the world: a key moves them from there. */
+  #seat(): void {
+    const { overlay } = this;
+    this.#frames.update();
+    this.#carriers.forEach((vertex, i) => {
+      const { x, y, z } = this.target(i, this.#place).applyMatrix4(this.#frames.of(vertex, this.#frame));
+      overlay.setPosition(i, x, y, z);
+      if (i === 0) overlay.step = this.#live.data.normalization.diagonal * this.#frame.getMaxScaleOnAxis() * 0.01;
+    });
   }
 
   /** Brings a handle to a place in the world. */

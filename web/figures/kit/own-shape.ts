@@ -17,6 +17,9 @@ interface Drawing {
   readonly draw: boolean;
 }
 
+/** All on the page that would take a file. */
+const takers = new Set<{ readonly figure: Element | null }>();
+
 /** An outline of one's own over the picture: drawn in one stroke, typed, or taken from a picture, which may be dropped anywhere. */
 export function ownShape<M, S extends Drawing>(take: Take<S>): Panel<M, S> {
   return { open: (kit) => new OwnShape(kit, take) };
@@ -86,8 +89,13 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
     this.element.hidden = !draw;
   }
 
+  get figure(): Element | null {
+    return this.element.closest('.figure');
+  }
+
   dispose(): void {
     this.#left.abort();
+    takers.delete(this);
     this.#veil.remove();
   }
 
@@ -98,12 +106,13 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
       this.#file.value = '';
       this.#open(file);
     });
-    const isHere = ({ target }: Event) => this.element.closest('.figure')?.contains(target as Node) === true;
-    addEventListener('keydown', (event) => event.key === 'Escape' && isHere(event) && this.#cancel(), { signal });
+    takers.add(this);
+    addEventListener('keydown', (event) => event.key === 'Escape' && isIn(event, this.figure) && this.#cancel(), { signal });
     addEventListener(
       'dragover',
       (event) => {
-        if (!event.dataTransfer?.types.includes('Files')) return;
+        this.#veil.remove();
+        if (!this.#takes(event)) return;
         event.preventDefault();
         this.element.after(this.#veil);
       },
@@ -113,13 +122,23 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
     addEventListener(
       'drop',
       (event) => {
-        if (!event.dataTransfer?.types.includes('Files')) return;
-        event.preventDefault();
         this.#veil.remove();
-        this.#open(event.dataTransfer.files[0]);
+        if (!this.#takes(event)) return;
+        event.preventDefault();
+        this.#open(event.dataTransfer?.files[0]);
       },
       { signal },
     );
+  }
+
+  /** A file that the page itself does not take is for the figure under it; elsewhere for the one that has the focus, or the only one. */
+  #takes(event: DragEvent): boolean {
+    if (event.defaultPrevented || !event.dataTransfer?.types.includes('Files')) return false;
+    const { figure } = this;
+    if (isIn(event, figure)) return true;
+    const others = [...takers].filter((taker) => taker !== this);
+    const isFree = !others.some((other) => isIn(event, other.figure));
+    return isFree && (others.length === 0 || figure?.matches(':focus-within') === true);
   }
 
   #open(file: File | undefined): void {
@@ -142,7 +161,7 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
   /** The choice of a shape says again what is shown. */
   #cancel(): void {
     if (!this.#kit.state.draw) return;
-    const isFocused = this.element.contains(document.activeElement);
+    const isFocused = this.element.matches(':focus-within');
     this.#clear();
     this.#kit.change({ draw: false } as Partial<S>);
     if (isFocused) this.element.closest('.figure')?.querySelector<HTMLElement>('.choices input:checked')?.focus();
@@ -209,6 +228,11 @@ class OwnShape<M, S extends Drawing> implements OpenPanel<M, S> {
     this.#pointer = -1;
     this.#path.setAttribute('d', '');
   }
+}
+
+/** In an element, too, whose inside the page does not see. */
+function isIn(event: Event, figure: Element | null): boolean {
+  return figure !== null && event.composedPath().includes(figure);
 }
 
 /** A closed line with its corners cut at a quarter (Chaikin). */

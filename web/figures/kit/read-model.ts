@@ -3,6 +3,10 @@ import { meshFromObject } from '../../three/geometry.ts';
 import { loadModel } from '../../three/load-model.ts';
 import { notFetched } from '../../ui/lazy.ts';
 
+const HERE = import.meta.url;
+/** Whatever page shows it: the folders of scripts lie beside that of the models, but for a development server, which serves the sources. */
+const MODELS = /\.ts(\?|$)/.test(HERE) ? '../../models/' : '../models/';
+
 const models = new Map<string, ReturnType<typeof fetchOnce>>();
 
 /** The surface in one of the site's models, fetched once a page: "dog.glb". `what` names it in words where it does not come. */
@@ -13,8 +17,11 @@ export function fetchModel(file: string, what: string) {
   return coming;
 }
 
+/** Throws where the script has no folder: it is inside a page. */
+const fetchBeside = async (file: string) => fetch(new URL(MODELS + file, HERE));
+
 async function fetchOnce(file: string, what: string) {
-  const response = await fetch(new URL(`../../models/${file}`, document.baseURI)).catch(() => undefined);
+  const response = await fetchBeside(file).catch(() => undefined);
   if (!response?.ok) throw await notFetched(what);
   const { object } = await loadModel(await response.arrayBuffer());
   const { mesh } = meshFromObject(object);
