@@ -133,7 +133,7 @@ function stylesOf(files) {
       .replace('color-scheme: light dark;', '')
       .replace(/^(?!@).*$/gm, (line) => line.replace(/(-?[\d.]+)rem\b/g, 'calc($1 * var(--rem))'))
       .replace(/\s+/g, ' ')
-      // No space and semicolon that says nothing; those around what selectors and sums combine do.
+      // Without spaces and semicolons that mean nothing. Spaces around + and -, and before a colon, mean something and stay.
       .replace(/ ?([{};,>]) ?/g, '$1')
       .replace(/([\w-]): /g, '$1:')
       .replaceAll(';}', '}')
