@@ -91,7 +91,8 @@ it('a picture is saved as SVG and as PNG, as it looks', async () => {
 
 it('what embeds it is offered, as it is now, and works in another page', async () => {
   const { page } = await openFigure(browser, 'course-12&v1&narrow', { colorScheme: 'light' });
-  await page.getByRole('button', { name: 'Embed', exact: true }).click();
+  await page.getByRole('button', { name: 'Embed', exact: true }).focus();
+  await page.keyboard.press('Enter');
   const sheet = page.getByRole('dialog', { name: 'Embed this figure' });
   const [frame = '', element = ''] = await sheet
     .getByRole('textbox')

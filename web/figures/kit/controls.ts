@@ -129,8 +129,9 @@ function slider({ label, low, high, scale, step }: Range | AutoRange, change: Ch
     min: even ? low : 0,
     max: even ? high : NOTCHES,
     step: even ? step : 1,
-    oninput: () => change(even ? input.valueAsNumber : fromLog(input.valueAsNumber / NOTCHES, low, high, zero)),
+    oninput: () => change(read()),
   });
+  const read = () => (even ? input.valueAsNumber : fromLog(input.valueAsNumber / NOTCHES, low, high, zero));
   const say = (text: string) => {
     if (output.textContent === text) return;
     output.textContent = text;
@@ -138,8 +139,8 @@ function slider({ label, low, high, scale, step }: Range | AutoRange, change: Ch
   };
   const show = (value: unknown) => {
     if (typeof value !== 'number') return say('automatic');
-    const at = even ? value : Math.round(toLog(value, low, high, zero) * NOTCHES);
-    if (input.valueAsNumber !== at) input.value = String(at);
+    // One that says this already stays where it was put: a step of a key may be less than the number is rounded by, and the next goes on from it.
+    if (read() !== value) input.value = String(even ? value : Math.round(toLog(value, low, high, zero) * NOTCHES));
     say(brief(value));
   };
   return { element: h('div', { class: 'control' }, h('label', { for: id }, label), output, input), show };
