@@ -485,6 +485,8 @@ it('a view that is left leaves nothing behind', async () => {
     configFile: false,
     logLevel: 'error',
     cacheDir: path.join(root, 'build/.vite'),
+    // Not what other pages of the project ask for.
+    optimizeDeps: { entries: ['tests/web/support/views.html'] },
     server: { port: 0, host: '127.0.0.1', hmr: false, watch: null },
   });
   onTestFinished(() => server.close());
