@@ -30,6 +30,7 @@ const WORLD: World = {
   mesh: "(await import('handlebody/three')).meshFromObject(gltf.scene).mesh",
   body: 'await hb.bake(mesh, { resolution: 24, centers: 20, spheres: 10 })',
   irbf: 'hb.irbf(body)',
+  object: 'gltf.scene',
   positions: 'new Float32Array(mesh.positions.length)',
   normals: 'new Float32Array(mesh.positions.length)',
   neutral: 'new Float32Array(positions.length)',
@@ -62,8 +63,10 @@ const OWN: Record<string, World> = {
     triangles: 'mesh.triangles',
     out: 'new Float32Array(positions.length)',
   },
+  meshDocument: { bytes: `new TextEncoder().encode(${OBJ})` },
   readObj: { file: `new Blob([${OBJ}])` },
   readPly: { file: `new Blob([${PLY}])` },
+  writeGlb: { bytes: `new TextEncoder().encode(${OBJ})` },
 };
 
 /** Exports of other packages, as if imported. */

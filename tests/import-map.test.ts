@@ -10,7 +10,17 @@ const root = fileURLToPath(new URL('..', import.meta.url));
 const read = (file: string) => readFileSync(path.join(root, file), 'utf8');
 
 /** What the map says nothing of: these want a bundler, the tags and the widget have scripts of their own. */
-const LEFT_OUT = ['./element', './standalone', './anywidget', './gltf-transform', './bake-worker'];
+const LEFT_OUT = [
+  './element',
+  './element/react',
+  './element/vue',
+  './element/svelte',
+  './figure',
+  './standalone',
+  './anywidget',
+  './gltf-transform',
+  './bake-worker',
+];
 /** Loaded to write a baked body, which of these entries none does. */
 const FOR_WRITING = 'meshoptimizer/encoder';
 

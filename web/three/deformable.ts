@@ -15,7 +15,7 @@ import type { SurfacePick } from './surface-pick.ts';
  *
  * ```ts
  * const dog = deformable(gltf.scene, hb.irbf(body));
- * dog.irbf.setHandles([{ vertex: 1172 }]);
+ * dog.irbf.setHandles([{ vertex: 120 }]);
  * dog.irbf.targets.set([0.2, 0.1, 0.9]);
  * dog.irbf.solve();
  * dog.deform(); // every frame: nothing is allocated
@@ -25,6 +25,16 @@ export function deformable(object: Object3D, irbf: Irbf): Deformable {
   return new Deformable(object, irbf);
 }
 
+/**
+ * An object under a solver's deformation, as `deformable` makes it.
+ *
+ * ```ts
+ * const dog: Deformable = deformable(gltf.scene, irbf);
+ * dog.deform();
+ * console.log(dog.positions, dog.normals);
+ * dog.dispose(); // the object is as it was
+ * ```
+ */
 export class Deformable {
   readonly object: Object3D;
   readonly irbf: Irbf;

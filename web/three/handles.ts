@@ -43,6 +43,12 @@ interface Item {
  * The page styles them: class `handle`, and the attributes `aria-current` (chosen), `data-dragging`, `data-away` (on the far side), `data-right`
  * (so far right that a label belongs on its left), `data-low` (so far down that a label belongs above it), `data-outside` (at the rim:
  * to be hidden, but by `opacity`, until it has the focus). `HandleOverlay` brings a style along.
+ *
+ * ```ts
+ * const handles = new BareHandles({ camera, container, onMove: (i, place) => console.log(i, place.toArray()) });
+ * handles.set([{ name: 'Nose', position: [0, 1, 2] }]);
+ * handles.update(); // after each render
+ * ```
  */
 export class BareHandles {
   step: number;
