@@ -2,6 +2,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, inject, it, onTestFinished } from 'vitest';
 import type { HandleFigureElement } from '../../web/element/index.ts';
+import { violations } from './support/manners.ts';
 import { otherPage } from './support/other-site.ts';
 import { launch, soon } from './support/studio.ts';
 
@@ -44,6 +45,14 @@ it('is as high as its figure, by the message of this page’s own and by that of
   const last = all.findLast(({ type }) => type === 'handlebody.resize')?.height;
   expect(last).toBeGreaterThan(400);
   expect(all.findLast(({ subject }) => subject === 'lti.frameResize')?.height).toBe(last);
+});
+
+it.each(['light', 'dark'] as const)('axe finds nothing in it, %s', async (colorScheme) => {
+  const page = await browser.newPage({ viewport: { width: 700, height: 900 }, reducedMotion: 'reduce', colorScheme });
+  onTestFinished(() => page.close());
+  await page.goto(`${inject('site')}embed.html#course-12`);
+  await page.locator('[data-figure][data-state=ready][data-rest=yes]').waitFor({ timeout: 60_000 });
+  expect(await violations(page)).toEqual([]);
 });
 
 it('answers iframe-resizer 4 by the name that it gives', async () => {

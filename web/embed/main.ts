@@ -36,4 +36,4 @@ addEventListener('hashchange', follow);
 figure.addEventListener('change', () => writeAddress(`${figure.name}&${figure.state}`));
 new ResizeObserver(() => tellHeight('resize')).observe(document.documentElement);
 follow();
-main.replaceChildren(figure);
+main.replaceChildren(h('h1', {}, 'A live figure'), figure);
