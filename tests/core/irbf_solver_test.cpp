@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "baked_bar.hpp"
 #include "core/irbf/bake.hpp"
 #include "core/irbf/irbf.hpp"
 #include "made_meshes.hpp"
@@ -11,23 +12,6 @@
 using namespace handlebody;
 
 namespace {
-
-/** The bar of paper 001, Fig. 2. */
-Body bar(Index centers, int spheres) {
-  const test::MadeMesh mesh = test::made_box({10, 2, 2}, {30, 6, 6});
-  BakeOptions options;
-  options.centers = centers;
-  options.resolution = 40;
-  options.max_spheres = spheres;
-  auto bake = Bake::begin(mesh.positions, mesh.triangles, options);
-  REQUIRE(bake);
-  for (double progress = 0; progress < 1;) {
-    auto step = (*bake)->step();
-    REQUIRE(step);
-    progress = *step;
-  }
-  return (*bake)->body();
-}
 
 Points corners() {
   Points points(8, 3);
@@ -69,7 +53,7 @@ Points positions(Irbf& irbf) {
 }  // namespace
 
 TEST_CASE("accelerated iterations find the minimum that plain ones find, in a small part of their number") {
-  const Body body = bar(100, 100);
+  const Body body = test::baked_bar(100, 100);
   REQUIRE(body.spheres.size() >= 30);
   auto fast = bent(body, {}), slow = bent(body, {});
   const auto least = fast->solve({5000, 1e-10, true});
@@ -89,7 +73,7 @@ TEST_CASE("accelerated iterations find the minimum that plain ones find, in a sm
 }
 
 TEST_CASE("the energy never rises, however the iterations are cut up, and cutting them up changes nothing") {
-  const Body body = bar(100, 40);
+  const Body body = test::baked_bar(100, 40);
   auto whole = bent(body, {}), cut = bent(body, {});
   const auto at_once = whole->solve({24, 0, true});
   REQUIRE(at_once);
@@ -105,7 +89,7 @@ TEST_CASE("the energy never rises, however the iterations are cut up, and cuttin
 }
 
 TEST_CASE("hard constraints meet their targets exactly, and soft ones agree with them") {
-  const Body body = bar(100, 9);
+  const Body body = test::baked_bar(100, 9);
   IrbfOptions options;
   options.constraints = ConstraintKind::hard;
   auto hard = bent(body, options), soft = bent(body, {});
@@ -129,7 +113,7 @@ TEST_CASE("hard constraints meet their targets exactly, and soft ones agree with
 }
 
 TEST_CASE("every radial kernel deforms the bar, or says why not; decreasing ones come nearest to a maximum principle") {
-  const Body body = bar(60, 9);
+  const Body body = test::baked_bar(60, 9);
   double inverse_multiquadric = 0;
   for (unsigned kind = 0; kind <= static_cast<unsigned>(KernelKind::compact_inverse_multiquadric); ++kind) {
     CAPTURE(kind);
@@ -159,7 +143,7 @@ TEST_CASE("every radial kernel deforms the bar, or says why not; decreasing ones
 }
 
 TEST_CASE("a kernel of the caller's that fails is named") {
-  const Body body = bar(30, 5);
+  const Body body = test::baked_bar(30, 5);
   IrbfOptions options;
   options.kernel = Kernel::of(KernelKind::custom, 2, 3);
   options.kernel.custom.function = [](const void*, double s, bool) { return s > 1 ? std::nan("") : 1 - s / 2; };
@@ -174,7 +158,7 @@ TEST_CASE("a kernel of the caller's that fails is named") {
 }
 
 TEST_CASE("Fig. 9: with seven spheres, too small a λ is jerky, too large a one gives up rigidity; the chosen one is between") {
-  const Body body = bar(100, 7);
+  const Body body = test::baked_bar(100, 7);
   const auto distortion = [&](double smoothness, double width) {
     IrbfOptions options;
     options.smoothness = smoothness;
@@ -206,7 +190,7 @@ TEST_CASE("Fig. 9: with seven spheres, too small a λ is jerky, too large a one 
 TEST_CASE("Fig. 20: fewer centers follow the spheres less") {
   double last_energy = 0;
   for (const Index centers : {50, 35, 20, 10}) {
-    const Body body = bar(centers, 20);
+    const Body body = test::baked_bar(centers, 20);
     IrbfOptions options;
     options.smoothness = 1e-6;
     auto irbf = bent(body, options);
@@ -222,7 +206,7 @@ TEST_CASE("Fig. 20: fewer centers follow the spheres less") {
 }
 
 TEST_CASE("the chosen λ does not depend on the model's size, and follows the energy's weights") {
-  const Body body = bar(60, 9);
+  const Body body = test::baked_bar(60, 9);
   const auto chosen = [](const Body& from, double exponent) {
     IrbfOptions options;
     options.edge_exponent = exponent;
@@ -242,7 +226,7 @@ TEST_CASE(
     "the smaller of the two products gives what the other one does, and a new set of handles keeps the shape until it is solved") {
   // 27 + 8 columns by spheres and handles, 100 by centers; and 40 spheres, where centers are fewer.
   for (const int spheres : {9, 40}) {
-    const Body body = bar(100, spheres);
+    const Body body = test::baked_bar(100, spheres);
     CAPTURE(spheres);
     for (const FramePrecision precision : {FramePrecision::floating, FramePrecision::fixed}) {
       IrbfOptions options;
@@ -262,7 +246,7 @@ TEST_CASE(
 }
 
 TEST_CASE("one handle carries the shape along, and two turn it") {
-  const Body body = bar(60, 9);
+  const Body body = test::baked_bar(60, 9);
   for (const ConstraintKind kind : {ConstraintKind::soft, ConstraintKind::hard}) {
     IrbfOptions options;
     options.constraints = kind;

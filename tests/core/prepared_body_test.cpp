@@ -2,31 +2,14 @@
 
 #include <doctest/doctest.h>
 
-#include "core/irbf/bake.hpp"
+#include "baked_bar.hpp"
 #include "core/irbf/irbf.hpp"
-#include "made_meshes.hpp"
 
 using namespace handlebody;
 
 namespace {
 
-Body bar() {
-  const test::MadeMesh mesh = test::made_box({10, 2, 2}, {30, 6, 6});
-  BakeOptions options;
-  options.centers = 60;
-  options.resolution = 40;
-  options.max_spheres = 9;
-  auto bake = Bake::begin(mesh.positions, mesh.triangles, options);
-  REQUIRE(bake);
-  for (double progress = 0; progress < 1;) {
-    auto step = (*bake)->step();
-    REQUIRE(step);
-    progress = *step;
-  }
-  return (*bake)->body();
-}
-
-/** Its two ends. */
+/** The bar's two ends. */
 Points ends() {
   Points points(2, 3);
   points << 0, 0, 0, 10, 2, 2;
@@ -35,26 +18,24 @@ Points ends() {
 
 const std::vector<HandleKind> two(2, HandleKind::position);
 
-/** Lifts one end, and gives what comes of it. */
-Points lifted(Irbf& irbf) {
-  REQUIRE(irbf.set_handles(ends(), two));
-  irbf.targets()[Irbf::target_size + 1] += 3;
-  REQUIRE(irbf.solve({}));
-  PointsF out(irbf.vertex_count(), 3);
-  irbf.deform(out.data(), nullptr, nullptr);
-  return out.cast<double>();
-}
-
 Points present(Irbf& irbf) {
   PointsF out(irbf.vertex_count(), 3);
   irbf.deform(out.data(), nullptr, nullptr);
   return out.cast<double>();
 }
 
+/** Lifts one end, and gives what comes of it. */
+Points lifted(Irbf& irbf) {
+  REQUIRE(irbf.set_handles(ends(), two));
+  irbf.targets()[Irbf::target_size + 1] += 3;
+  REQUIRE(irbf.solve({}));
+  return present(irbf);
+}
+
 }  // namespace
 
 TEST_CASE("deformations that share a body deform as one of its own does, and outlive each other") {
-  const Body body = bar();
+  const Body body = test::baked_bar(60, 9);
   for (const FramePrecision precision : {FramePrecision::fixed, FramePrecision::floating}) {
     IrbfOptions options;
     options.precision = precision;
@@ -86,7 +67,7 @@ TEST_CASE("what cannot be prepared is refused by name") {
     REQUIRE_FALSE(prepared);
     return prepared.error().code;
   };
-  const Body body = bar();
+  const Body body = test::baked_bar(60, 9);
   IrbfOptions options;
   options.anchor_weight = -1;
   CHECK(refusal(body, options) == HB_ERROR_INVALID_OPTION);

@@ -3,6 +3,8 @@
  * solver are asked for it. Shared by the benchmark and by its short form among the tests.
  */
 
+import { countHeld } from '../figures/rounds.mjs';
+
 /**
  * @typedef {{ contexts: number, buffers: number, textures: number, programs: number, draws: number, solver: number }} Asked WebGL contexts made,
  *   what these hold, pictures drawn, and bytes of the solver's memory.
@@ -84,27 +86,11 @@ export async function comeAndGo(page, tags, cycles, onCycle) {
       for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
       /** @type {HTMLElement} */ (document.querySelector('main')).innerHTML = '';
     });
-    held.push(await count(page, cdp));
+    const counted = await countHeld(page, cdp);
+    const { buffers, textures, programs, solver } = await askedOf(page);
+    held.push({ ...counted, solver, buffers, textures, programs });
     onCycle?.(cycle);
   }
   await cdp.detach();
   return held;
-}
-
-/** @param {import('playwright-core').Page} page @param {import('playwright-core').CDPSession} cdp @returns {Promise<Held>} */
-async function count(page, cdp) {
-  let [nodes, before] = [0, -1];
-  /** @type {{ name: string, value: number }[]} */
-  let metrics = [];
-  const of = (/** @type {string} */ name) => metrics.find((metric) => metric.name === name)?.value ?? Number.NaN;
-  // What waits for a collection to be told of (observers, workers) is told after it, and may free more.
-  for (let i = 0; i < 20 && (i < 3 || nodes !== before); i++) {
-    await cdp.send('HeapProfiler.collectGarbage');
-    await page.waitForTimeout(50);
-    ({ metrics } = await cdp.send('Performance.getMetrics'));
-    [before, nodes] = [nodes, of('Nodes')];
-  }
-  const { buffers, textures, programs, solver } = await askedOf(page);
-  const [listeners, heap] = [of('JSEventListeners'), of('JSHeapUsedSize')];
-  return { nodes, listeners, heap, solver, buffers, textures, programs };
 }

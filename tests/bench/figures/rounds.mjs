@@ -39,15 +39,19 @@ export async function goRound(page, address, rounds, onRound) {
         { timeout: 60_000 },
       );
     }
-    held.push(await count(page, cdp));
+    held.push({ ...(await countHeld(page, cdp)), solver: await solverOf(page) });
     onRound?.(round, /** @type {Held} */ (held.at(-1)));
   }
   await cdp.detach();
   return held;
 }
 
-/** @param {import('playwright-core').Page} page @param {import('playwright-core').CDPSession} cdp @returns {Promise<Held>} */
-async function count(page, cdp) {
+/**
+ * What the page holds after a forced collection.
+ * @param {import('playwright-core').Page} page
+ * @param {import('playwright-core').CDPSession} cdp
+ */
+export async function countHeld(page, cdp) {
   let [nodes, before] = [0, -1];
   /** @type {{ name: string, value: number }[]} */
   let metrics = [];
@@ -59,9 +63,11 @@ async function count(page, cdp) {
     ({ metrics } = await cdp.send('Performance.getMetrics'));
     [before, nodes] = [nodes, of('Nodes')];
   }
-  const solver = await page.evaluate(() => /** @type {any} */ (document.querySelector('.figure'))?.figure.memory ?? Number.NaN);
-  return { nodes, listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize'), solver };
+  return { nodes, listeners: of('JSEventListeners'), heap: of('JSHeapUsedSize') };
 }
+
+/** @param {import('playwright-core').Page} page @returns {Promise<number>} Bytes of the figure's solver. */
+const solverOf = (page) => page.evaluate(() => /** @type {any} */ (document.querySelector('.figure'))?.figure.memory ?? Number.NaN);
 
 /**
  * The largest change of each count from the tenth round on, over what it was then.
