@@ -5,9 +5,7 @@
 #include <limits>
 
 #include "baked_bar.hpp"
-#include "core/irbf/bake.hpp"
 #include "core/irbf/irbf.hpp"
-#include "made_meshes.hpp"
 
 using namespace handlebody;
 
