@@ -183,7 +183,8 @@ describe('readMesh', () => {
     const cloud = (x: number) => ({ positions: [x, 0, 0, x, 1, 0, x, 0, 1], indices: [2, 1], mode: POINTS as number });
     const { mesh, ranges } = readMesh(await readGlb(await writeGlb(makeDocument([cloud(0), cloud(1)], [cloud(2)]))));
     expect(mesh.triangles).toEqual(new Uint32Array());
-    expect([...mesh.positions]).toEqual([0, 1, 2].flatMap((x) => cloud(x).positions));
+    // The first point is not drawn, and counts where the first drawn one is.
+    expect([...mesh.positions]).toEqual([0, 1, 2].flatMap((x) => [x, 0, 1, x, 1, 0, x, 0, 1]));
     expect(ranges.map(({ start, count, triangleCount }) => [start, count, triangleCount])).toEqual(
       [0, 3, 6].map((at) => [at, 3, 0]),
     );

@@ -3,7 +3,7 @@ import { BufferAttribute, type BufferGeometry, Group, Matrix3, Matrix4, Mesh, Qu
 import { PlaneGeometry } from 'three/src/geometries/PlaneGeometry.js';
 import { TorusGeometry } from 'three/src/geometries/TorusGeometry.js';
 import { describe, expect, it } from 'vitest';
-import { fetchTangents } from '../../web/three/fetch-tangents.ts';
+import { fetchMaking } from '../../web/three/fetch-making.ts';
 import { DeformedGeometry, meshFromObject } from '../../web/three/index.ts';
 import { LiveGeometry } from '../../web/three/live-geometry.ts';
 
@@ -171,7 +171,7 @@ describe('tangents', () => {
 
   it('are turned by what is fetched where any mesh of an object has some', async () => {
     const bare = new Mesh(plane(4));
-    expect(await fetchTangents(new Group().add(bare))).toBeUndefined();
+    expect(await fetchMaking(new Group().add(bare))).toEqual({});
 
     const mesh = ring();
     const { parts, mesh: joined, normals } = meshFromObject(mesh);
@@ -179,7 +179,7 @@ describe('tangents', () => {
     const quarter = (from: ArrayLike<number>) =>
       Float32Array.from({ length: from.length }, (_, i) => turned(row(from, Math.floor(i / 3), 3)).toArray()[i % 3] as number);
     const rest = mesh.geometry.getAttribute('tangent').array.slice();
-    const shown = new LiveGeometry(parts, await fetchTangents(new Group().add(bare, new Group().add(mesh))));
+    const shown = new LiveGeometry(parts, await fetchMaking(new Group().add(bare, new Group().add(mesh))));
     shown.update(quarter(joined.positions), quarter(normals ?? []));
     expect(farthestOff(mesh.geometry.getAttribute('tangent').array, (v) => turned(row(rest, v, 4)))).toBeLessThan(1e-3);
     shown.dispose();

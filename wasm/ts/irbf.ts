@@ -5,13 +5,15 @@ import { checkFractions } from './fractions.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
-import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray } from './types.ts';
+import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
 export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
 
 /** Numbers a handle takes in `targets`: position xyz, quaternion xyzw, scale xyz. */
 const TARGET_SIZE = 10;
+/** Made once, so that a frame allocates nothing. */
+const FROM_MODEL = { stride: TARGET_SIZE, sign: -1 } as const;
 
 /**
  * The deformation of a baked body by handles (paper 001, §2 and appendix): set handles, write their `targets`, `solve`, `deform`.
@@ -79,12 +81,14 @@ export class Irbf {
     const heap = this.#heap;
     const irbf = this.#alive();
     const { positions } = this.#body.mesh;
+    const origin = this.#origin;
     const points = new Float64Array(handles.length * 3);
     const kinds = new Uint32Array(handles.length);
     handles.forEach((handle, i) => {
       kinds[i] = handle.kind === 'rotation' ? 1 : 0;
       if ('at' in handle) {
         points.set(handle.at, i * 3);
+        for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = (points[i * 3 + axis] ?? 0) - (origin?.[axis] ?? 0);
         return;
       }
       if (!Number.isInteger(handle.vertex) || handle.vertex < 0 || handle.vertex >= positions.length / 3) {
@@ -107,6 +111,7 @@ export class Irbf {
         handles.length * TARGET_SIZE,
       )
       .slice();
+    if (origin) shiftRows(this.#targets, origin, { stride: TARGET_SIZE, sign: 1 });
   }
 
   /**
@@ -120,7 +125,9 @@ export class Irbf {
     const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
     const accelerate = options.accelerate ?? SOLVE_DEFAULTS.accelerate;
     const targets = heap.call((e) => e.hb_irbf_targets(irbf));
-    heap.f64(targets, this.#targets.length).set(this.#targets);
+    const given = heap.f64(targets, this.#targets.length);
+    given.set(this.#targets);
+    if (this.#origin) shiftRows(given, this.#origin, FROM_MODEL);
     heap.check((e) => e.hb_irbf_solve(irbf, maxIterations, tolerance, accelerate ? 1 : 0, this.#report));
     const layout = LAYOUT.hb_irbf_report;
     const numbers = heap.f64(this.#report, 3);
@@ -179,7 +186,10 @@ export class Irbf {
     this.#hasRestNormals = true;
   }
 
-  /** Writes the deformed positions, and normals if asked, of all vertices as stored (n×3). Allocates nothing. */
+  /**
+   * Writes the deformed positions, and normals if asked, of all vertices as stored (n×3), relative to `body.mesh.origin` where there is
+   * one. Allocates nothing.
+   */
   deform(positions: TypedArray, normals?: TypedArray): void {
     const heap = this.#heap;
     const irbf = this.#alive();
@@ -209,8 +219,11 @@ export class Irbf {
     }
     heap.scope((scratch) => {
       const [from, to] = [scratch.putF64(points), scratch.reserve(points.length * 8)];
+      if (this.#origin) shiftRows(heap.f64(from, points.length), this.#origin, { stride: 3, sign: -1 });
       runKernel(heap, () => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
-      out.set(heap.f64(to, out.length));
+      const found = heap.f64(to, out.length);
+      if (this.#origin) shiftRows(found, this.#origin, { stride: 3, sign: 1 });
+      out.set(found);
     });
     return out as T;
   }
@@ -248,6 +261,11 @@ export class Irbf {
 
   [Symbol.dispose](): void {
     this.dispose();
+  }
+
+  /** What the body is relative to: all that the solver sees. */
+  get #origin(): Vec3 | undefined {
+    return this.#body.mesh.origin;
   }
 
   #alive(): number {
@@ -288,6 +306,12 @@ export function createIrbf(heap: Heap, body: BodyData, given: IrbfOptions): Irbf
     heap.kernels.remove(hostKernel);
     throw error;
   }
+}
+
+/** Between the model's units and those of a body that has an origin of its own: the first three numbers of each row. */
+function shiftRows(rows: Float64Array, origin: Vec3, { stride, sign }: { readonly stride: number; readonly sign: 1 | -1 }): void {
+  for (let row = 0; row < rows.length; row += stride)
+    for (let axis = 0; axis < 3; axis++) rows[row + axis] = (rows[row + axis] as number) + sign * (origin[axis] as number);
 }
 
 /** A body as the ABI's hb_body. */

@@ -22,6 +22,24 @@ export type TypedArray =
 export interface Mesh {
   readonly positions: TypedArray;
   readonly triangles: TypedArray;
+  /**
+   * What the positions are relative to, in the model's units, where the model lies so far from the origin that floats could not hold its
+   * shape; each number is exact as a float. Handles, targets, `evaluate` and all that is told stay in the model's units; `positions`,
+   * `deform` and `positionsHash` are relative to it.
+   */
+  readonly origin?: Vec3 | undefined;
+  /** How a scene was read, where it could be read in several ways; a body keeps it. */
+  readonly reading?: MeshReading | undefined;
+}
+
+/** How a scene was read: what is needed to find the same vertices in it again, whatever moved or was hidden since. Parts are numbered in the scene's order. */
+export interface MeshReading {
+  /** Hidden parts that were left out. */
+  readonly skipped?: readonly number[];
+  /** By part: the weights of morph targets whose displacements are in the positions. */
+  readonly morphs?: Readonly<Record<number, readonly number[]>>;
+  /** By part: the matrix that a skin was read through, 16 numbers, column-major. */
+  readonly skins?: Readonly<Record<number, readonly number[]>>;
 }
 
 /** A solid of tetrahedra (m×4 indices, in either order of corners). All of its vertices deform; they are shared by number. */

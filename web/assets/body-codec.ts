@@ -38,7 +38,7 @@ interface DecodeBodyInput {
   /** As found in the file: nothing is known of them. */
   readonly arrays: { readonly [name in keyof StoredArrays]?: unknown };
   /** Asked for only when the rest is sound. */
-  readonly mesh: () => Mesh;
+  readonly mesh: () => Mesh | Promise<Mesh>;
 }
 
 /**
@@ -61,12 +61,12 @@ export async function decodeBody(input: DecodeBodyInput): Promise<BodyData> {
   }
 }
 
-async function decode({ header: { arraysHash, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
+async function decode({ header: { arraysHash, reading: _, ...header }, arrays, mesh }: DecodeBodyInput): Promise<BodyData> {
   const stored = checkStored(arrays, header);
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
   const { dimensions } = header.grid;
-  const body = { ...header, mesh: mesh(), voxels, centers, spheres: Float64Array.from(stored.spheres) };
+  const body = { ...header, mesh: await mesh(), voxels, centers, spheres: Float64Array.from(stored.spheres) };
   checkBody(body);
 
   const decoder = await loadDecoder();

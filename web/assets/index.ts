@@ -19,6 +19,7 @@ export { readBody } from './read-body.ts';
 export { type PrimitiveRange, readMesh } from './read-mesh.ts';
 export { readObj } from './read-obj.ts';
 export { readPly } from './read-ply.ts';
+export type { SceneChoices, SceneWarning, SceneWarningCode } from './scene-choices.ts';
 export { BODY_VERSION, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE } from './schema.ts';
 export type { Matrix } from './transform.ts';
 export { attachBody, detachBody } from './write-body.ts';

@@ -1,4 +1,4 @@
-import { type Extension, Logger, WebIO } from '@gltf-transform/core';
+import { type Document, type Extension, type JSONDocument, Logger, type PlatformIO, WebIO } from '@gltf-transform/core';
 import { BodyExtension } from './body-extension.ts';
 import { MeshQuantization } from './mesh-quantization.ts';
 import { PoseSpaceExtension } from './pose-space-extension.ts';
@@ -25,7 +25,7 @@ export function createIo({ extensions = [] }: IoOptions = {}): WebIO {
     known.set(extension.EXTENSION_NAME, extension);
   }
   // Unknown optional extensions would each be warned of on the console, which a library has no business with.
-  return new WebIO().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions([...known.values()]);
+  return new ExactIo().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions([...known.values()]);
 }
 
 /**
@@ -39,3 +39,24 @@ export const HANDLEBODY_EXTENSIONS: readonly (typeof Extension)[] = [
   BodyExtension,
   PoseSpaceExtension,
 ] as unknown as (typeof Extension)[];
+
+/** Writes every transform as it is. glTF-Transform leaves out those within 1e-5 of none, which may be more than a small model's size. */
+class ExactIo extends WebIO {
+  override async writeJSON(...given: Parameters<PlatformIO['writeJSON']>): Promise<JSONDocument> {
+    const written = await super.writeJSON(...given);
+    const [document]: [Document, ...unknown[]] = given;
+    document
+      .getRoot()
+      .listNodes()
+      .forEach((node, i) => {
+        const json = written.json.nodes?.[i];
+        if (!json) return;
+        const differs = (value: readonly number[], none: readonly number[]) => value.some((x, k) => x !== none[k]);
+        const [translation, rotation, scale] = [node.getTranslation(), node.getRotation(), node.getScale()];
+        if (differs(translation, [0, 0, 0])) json.translation = translation;
+        if (differs(rotation, [0, 0, 0, 1])) json.rotation = rotation;
+        if (differs(scale, [1, 1, 1])) json.scale = scale;
+      });
+    return written;
+  }
+}

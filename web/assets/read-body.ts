@@ -6,7 +6,7 @@ import { readMesh } from './read-mesh.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays } from './schema.ts';
 
 /**
- * The baked body of a document, or undefined when it has none. Its mesh is `readMesh(document).mesh`. Decompressing takes some
+ * The baked body of a document, or undefined when it has none. Its mesh is `readMesh(document).mesh`, read by the choices of the bake. Decompressing takes some
  * milliseconds a million distances.
  *
  * Rejects with 'body-version', 'body-invalid', 'body-mismatch' or 'wasm-unavailable', and what `readMesh` throws.
@@ -22,5 +22,9 @@ export async function readBody(document: Document): Promise<BodyData | undefined
   const header = parseStoredHeader(property.getHeader());
   const names = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];
   const arrays = Object.fromEntries(names.map((name) => [name, property.getAccessor(name)?.getArray()?.slice()]));
-  return decodeBody({ header, arrays: arrays as Partial<StoredArrays>, mesh: () => readMesh(document).mesh });
+  return decodeBody({
+    header,
+    arrays: arrays as Partial<StoredArrays>,
+    mesh: () => readMesh(document, { reading: header.reading ?? {} }).mesh,
+  });
 }

@@ -1,7 +1,10 @@
-import type { Document, mat4, Node, Primitive } from '@gltf-transform/core';
+import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { concatenate, MAX_VERTICES, type MeshPart, type MeshRange, type PartMode } from './concatenate.ts';
+import { MAX_VERTICES, type MeshRange, type PartMode } from './concatenate.ts';
+import { joinScene, type ScenePart } from './join-scene.ts';
+import type { SceneChoices } from './scene-choices.ts';
+import type { PartSkin } from './skin-frame.ts';
 import { composeMatrix, IDENTITY, type Matrix, multiplyMatrices } from './transform.ts';
 
 /** Which primitive of which node gave a range of vertices and triangles. */
@@ -10,83 +13,178 @@ export interface PrimitiveRange extends MeshRange {
   readonly primitive: Primitive;
   /** From the primitive's own space to the scene's: 16 numbers, column-major. */
   readonly matrix: Matrix;
+  /** The weights of the morph targets that are in the positions, if any. */
+  readonly weights: readonly number[] | undefined;
+}
+
+interface Source {
+  readonly node: Node;
+  readonly primitive: Primitive;
 }
 
 /**
  * The triangles of the default scene (or the first) as one mesh in scene space: nodes depth-first in file order, the primitives of a
  * mesh in order; a mesh that hangs at two nodes counts twice. Lines and primitives without positions are skipped and take no vertex
- * numbers, and so do points, unless the scene has nothing else: then it is a cloud, a mesh without triangles. Morph targets are at rest.
+ * numbers, and so do points, unless the scene has nothing else: then it is a cloud, a mesh without triangles. Morph targets are at rest,
+ * unless the choices say otherwise.
  *
- * A skinned primitive is taken as stored: its node's transform does not move it (glTF 2.0, 3.7.3.3), and it is deformed before skinning.
+ * A skinned primitive is read before skinning: where the viewer shows it when all of its joints carry it alike, else through the matrix of
+ * its root joint alone, with a warning.
  *
- * Throws 'mesh-no-triangles', 'mesh-too-large', 'mesh-index-out-of-range' or 'file-invalid'. Values are not checked: baking does that.
+ * A scene that lies more than 1,000 of its diagonals from the origin gets an `origin` of its own, which the positions are relative to.
+ *
+ * Throws 'mesh-no-triangles', 'mesh-too-large', 'mesh-index-out-of-range', 'file-unsupported' for instances made by the graphics card
+ * (EXT_mesh_gpu_instancing), or 'file-invalid'. Values are not checked: baking does that.
  *
  * ```ts
- * const { mesh, ranges } = readMesh(document);
+ * const { mesh, ranges } = readMesh(document, { morphs: 'present', onWarning: ({ message }) => console.log(message) });
  * const body = await hb.bake(mesh);
  * ```
  */
-export function readMesh(document: Document): { mesh: Mesh; ranges: PrimitiveRange[] } {
-  const found: { part: MeshPart; source: { node: Node; primitive: Primitive; matrix: Matrix } }[] = [];
+export function readMesh(document: Document, choices: SceneChoices = {}): { mesh: Mesh; ranges: PrimitiveRange[] } {
+  const found: ScenePart<Source>[] = [];
   const root = document.getRoot();
   const scene = root.getDefaultScene() ?? root.listScenes()[0];
-  const stored = new Map<Primitive, Float32Array>();
+  if (!scene) throw noScene();
+  const memo = new Memo();
+  const lines = { count: 0 };
   let vertices = 0;
 
   const visited = new Set<Node>();
-  const stack = (scene?.listChildren() ?? []).map((node) => ({ node, parent: IDENTITY })).reverse();
+  const stack = scene
+    .listChildren()
+    .map((node) => ({ node, parent: IDENTITY }))
+    .reverse();
   for (let entry = stack.pop(); entry; entry = stack.pop()) {
     const { node, parent } = entry;
     if (visited.has(node)) throw circle(node);
     visited.add(node);
+    refuseInstances(node);
     const matrix = multiplyMatrices(parent, localMatrix(node));
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const mode = primitive.getMode();
-      if ((mode !== 0 && (mode < 4 || mode > 6)) || !primitive.getAttribute('POSITION')) continue;
-      const positions = stored.get(primitive) ?? readPositions(primitive);
-      stored.set(primitive, positions);
-      vertices += positions.length / 3;
+      const stored = primitive.getAttribute('POSITION');
+      if (!stored) continue;
+      if (mode > 0 && mode < 4) lines.count++;
+      if (mode !== 0 && (mode < 4 || mode > 6)) continue;
+      vertices += stored.getCount();
       if (vertices > 2 * MAX_VERTICES) break; // concatenate() refuses it; no need to collect more
-      const skinned = node.getSkin() && primitive.getAttribute('JOINTS_0') && primitive.getAttribute('WEIGHTS_0');
-      const source = { node, primitive, matrix: skinned ? IDENTITY : matrix };
-      const indices = primitive.getIndices()?.getArray() ?? undefined;
-      found.push({ part: { positions, indices, mode: mode as PartMode, matrix: source.matrix }, source });
+      found.push(partOf({ node, primitive }, { matrix, memo }));
     }
-    for (const child of node.listChildren().reverse()) stack.push({ node: child, parent: matrix as mat4 });
+    for (const child of node.listChildren().reverse()) stack.push({ node: child, parent: matrix });
   }
-  const surface = found.filter(({ part }) => part.mode !== 0);
-  const taken = surface.length > 0 ? surface : found;
-  const { mesh, ranges } = concatenate(taken.map(({ part }) => part));
-  return { mesh, ranges: ranges.map((range, i) => ({ ...range, ...(taken[i] as (typeof taken)[number]).source })) };
+  if (lines.count > 0)
+    choices.onWarning?.({
+      code: 'left-out',
+      message: `The scene's lines were left out: ${lines.count} of its primitives.`,
+      remedy: 'Give them a thickness in a modeling program, if they belong to the surface.',
+    });
+  const { mesh, parts } = joinScene(found, choices);
+  return { mesh, ranges: parts.map(({ source, ...range }) => ({ ...range, ...source })) };
 }
 
-/**
- * The node's transform as glTF-Transform will write it: it leaves out translations, rotations and scales within 1e-5 of the identity,
- * and a body's hash must hold for the file that is written.
- */
+/** What several parts of a scene have in common is read once. */
+class Memo {
+  readonly #rows = new Map<Accessor, Float32Array>();
+  readonly #matrices = new Map<Skin, Pick<PartSkin, 'matrices' | 'root'>>();
+
+  rows(accessor: Accessor, width: number): Float32Array {
+    const known = this.#rows.get(accessor) ?? decode(accessor, width);
+    this.#rows.set(accessor, known);
+    return known;
+  }
+
+  joints(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
+    const known = this.#matrices.get(skin) ?? jointsOf(skin);
+    this.#matrices.set(skin, known);
+    return known;
+  }
+}
+
+function partOf({ node, primitive }: Source, { matrix, memo }: { matrix: Matrix; memo: Memo }): ScenePart<Source> {
+  const stored = primitive.getAttribute('POSITION') as Accessor;
+  const [joints, weights] = [primitive.getAttribute('JOINTS_0'), primitive.getAttribute('WEIGHTS_0')];
+  const skin = joints && weights ? node.getSkin() : null;
+  const targets = primitive.listTargets();
+  const given = node.getWeights().length > 0 ? node.getWeights() : (node.getMesh()?.getWeights() ?? []);
+  return {
+    source: { node, primitive },
+    name: node.getName() || node.getMesh()?.getName() || 'a mesh without a name',
+    hidden: false,
+    mode: primitive.getMode() as PartMode,
+    indices: primitive.getIndices()?.getArray() ?? undefined,
+    matrix,
+    positions: () => memo.rows(stored, 3),
+    floats: stored.getArray() instanceof Float32Array,
+    weights: targets.map((_, i) => given[i] ?? 0),
+    displacements: () =>
+      targets.map((target) => {
+        const moved = target.getAttribute('POSITION');
+        return moved ? memo.rows(moved, 3) : undefined;
+      }),
+    ...(skin &&
+      joints &&
+      weights && { skin: () => ({ ...memo.joints(skin), joints: memo.rows(joints, 4), weights: memo.rows(weights, 4) }) }),
+  };
+}
+
+/** The matrices of a skin's joints in the scene; a joint may hang outside it. */
+function jointsOf(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
+  const joints = skin.listJoints();
+  const inverses = skin.getInverseBindMatrices();
+  const matrices = joints.map((joint, i) => {
+    const inverse = inverses && i < inverses.getCount() ? inverses.getElement(i, []) : IDENTITY;
+    return multiplyMatrices(multiplyMatrices(worldMatrix(joint), inverse), IDENTITY);
+  });
+  const isBelowAnother = (joint: Node) => {
+    for (let above = joint.getParentNode(); above; above = above.getParentNode()) if (joints.includes(above)) return true;
+    return false;
+  };
+  return {
+    matrices,
+    root: Math.max(
+      joints.findIndex((joint) => !isBelowAnother(joint)),
+      0,
+    ),
+  };
+}
+
+function worldMatrix(node: Node): Matrix {
+  const parent = node.getParentNode();
+  return multiplyMatrices(parent ? worldMatrix(parent) : IDENTITY, localMatrix(node));
+}
+
 function localMatrix(node: Node): number[] {
-  const near = (value: readonly number[], rest: number[]) =>
-    value.every((x, i) => Math.abs(x - (rest[i] ?? 0)) <= 1e-5) ? rest : value;
-  return composeMatrix(
-    near(node.getTranslation(), [0, 0, 0]),
-    near(node.getRotation(), [0, 0, 0, 1]),
-    near(node.getScale(), [1, 1, 1]),
-  );
+  return composeMatrix(node.getTranslation(), node.getRotation(), node.getScale());
 }
 
-/** Decoded: quantized positions become floats. */
-function readPositions(primitive: Primitive): Float32Array {
-  const accessor = primitive.getAttribute('POSITION');
-  if (accessor?.getElementSize() !== 3) {
+/** Decoded: quantized numbers become floats. */
+function decode(accessor: Accessor, width: number): Float32Array {
+  if (accessor.getElementSize() !== width) {
     throw new HandlebodyError('file-invalid', {
-      message: `The positions of a primitive are ${accessor?.getType()} and should be VEC3.`,
+      message: `An attribute of a primitive is ${accessor.getType()} and should be VEC${width}.`,
       remedy: 'Export the model again; a glTF validator says more.',
     });
   }
-  const positions = new Float32Array(accessor.getCount() * 3);
+  const rows = new Float32Array(accessor.getCount() * width);
   const element: number[] = [];
-  for (let i = 0; i < positions.length; i += 3) positions.set(accessor.getElement(i / 3, element), i);
-  return positions;
+  for (let i = 0; i < rows.length; i += width) rows.set(accessor.getElement(i / width, element), i);
+  return rows;
+}
+
+function refuseInstances(node: Node): void {
+  if (!node.getExtension('EXT_mesh_gpu_instancing')) return;
+  throw new HandlebodyError('file-unsupported', {
+    message: `The node "${node.getName()}" shows copies of its mesh by EXT_mesh_gpu_instancing, which have no vertices of their own to deform.`,
+    remedy: 'Turn the instances into meshes: "uninstance" of glTF-Transform does so.',
+  });
+}
+
+function noScene(): HandlebodyError {
+  return new HandlebodyError('mesh-no-triangles', {
+    message: 'The file has no scene, so that a viewer shows nothing of it.',
+    remedy: 'Put what is to be shown into a scene, and export the file again.',
+  });
 }
 
 function circle(node: Node): HandlebodyError {

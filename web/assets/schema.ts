@@ -10,6 +10,7 @@
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
  *     "handles": [ { "name": "Nose", "vertex": 120 }, { "name": "Chest", "at": [x, y, z] }, … ],    optional: where it wants to be held
+ *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] } },    optional: see `MeshReading`
  *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
  *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
  *     "centers": accessor,     unsigned int SCALAR: vertices
@@ -24,7 +25,7 @@
  */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
-import type { BodyData, DistanceMethod, NamedHandle } from '../../wasm/ts/types.ts';
+import type { BodyData, DistanceMethod, Mesh, MeshReading, NamedHandle } from '../../wasm/ts/types.ts';
 import { asObject, isNumber, show } from './gltf-json.ts';
 import { countInRuns } from './voxel-runs.ts';
 
@@ -39,7 +40,11 @@ export const BODY_VERSION = 1;
 const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
 
 /** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
-type BodyHeader = Pick<BodyData, 'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale' | 'handles'>;
+type BodyHeader = Pick<
+  BodyData,
+  'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale' | 'handles'
+> &
+  Pick<Mesh, 'reading'>;
 
 /** The same in a file. */
 export interface StoredHeader extends BodyHeader {
@@ -98,6 +103,7 @@ export function parseBodyHeader(json: unknown): BodyHeader {
     },
     distanceScale: body.distanceScale as number,
     ...(body.handles !== undefined && { handles: namedHandles(body.handles) }),
+    ...(body.reading !== undefined && { reading: meshReading(body.reading) }),
   };
   if (!METHODS.includes(header.distance)) throw bodyInvalid(`has distances of no known method, ${show(body.distance)}`);
   if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw bodyInvalid('has no hash of its positions');
@@ -105,6 +111,28 @@ export function parseBodyHeader(json: unknown): BodyHeader {
   const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
   if (cells < 1 || cells > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
   return header;
+}
+
+/** More parts than real scenes have. */
+const MAX_PARTS = 1 << 16;
+
+function meshReading(json: unknown): MeshReading {
+  const { skipped = [], morphs = {}, skins = {} } = asObject(json) ?? bodyFails();
+  const isPart = (part: unknown) => Number.isInteger(part) && (part as number) >= 0 && (part as number) < MAX_PARTS;
+  const rows = (given: unknown, length?: number) => {
+    const entries = Object.entries(asObject(given) ?? bodyFails());
+    const sound = entries.every(
+      ([part, row]) =>
+        isPart(Number(part)) && Array.isArray(row) && row.every(isNumber) && (length === undefined || row.length === length),
+    );
+    return entries.length > MAX_PARTS || !sound ? bodyFails() : (Object.fromEntries(entries) as Record<number, number[]>);
+  };
+  if (!Array.isArray(skipped) || skipped.length > MAX_PARTS || !skipped.every(isPart)) return bodyFails();
+  return { skipped, morphs: rows(morphs), skins: rows(skins, 16) };
+}
+
+function bodyFails(): never {
+  throw bodyInvalid('does not say how its scene was read');
 }
 
 /** More than these cannot be told apart. */

@@ -20,8 +20,9 @@ import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, parseBodyHeader } from './s
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
   const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
-  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles });
-  const checked = { ...body, ...header, mesh: readMesh(document).mesh };
+  const { reading } = body.mesh;
+  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles, reading });
+  const checked = { ...body, ...header, mesh: readMesh(document, { reading: reading ?? {} }).mesh };
   checkBody(checked);
   const { arrays, arraysHash } = await encodeBody(checked);
 

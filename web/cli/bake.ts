@@ -7,12 +7,14 @@ import { modelBytes, readModel } from './model.ts';
 import type { Run } from './run.ts';
 
 const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
+const MORPHS = ['rest', 'present'] as const;
 const PACKINGS = ['skeleton', 'tree'] as const;
 
 export const BAKE_OPTIONS: Options = {
   ...WRITES,
   centers: { type: 'string' },
   distance: { type: 'string' },
+  morphs: { type: 'string' },
   resolution: { type: 'string' },
   spheres: { type: 'string' },
   'max-spheres': { type: 'string' },
@@ -25,11 +27,13 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
   const { document, format } = await readModel(await readInput(input), input, report);
-  const { mesh } = readMesh(document);
+  const morphs = oneOf(values, 'morphs', MORPHS);
+  const { mesh } = readMesh(document, { morphs, onWarning: (warning) => report.warn(warning) });
   clock.lap('read');
   const hb = await load({ signal });
   // Without triangles it is a cloud of points.
-  const shape = mesh.triangles.length > 0 ? mesh : { positions: mesh.positions };
+  const { triangles: _, ...cloud } = mesh;
+  const shape = mesh.triangles.length > 0 ? mesh : cloud;
   const onProgress = report.progress('baking');
   const body = await hb.bake(shape, { ...options, signal, onProgress, onWarning: (warning) => report.warn(warning) });
   clock.lap('bake');

@@ -27,7 +27,6 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   const output = prepareOutput(theOutput('deform', values), { inputs: [input, handlesName], force: values.force === true });
 
   const { document } = await readModel(await readInput(input), input, report);
-  const { ranges } = readMesh(document);
   const body = await readBody(document);
   if (!body) {
     throw new HandlebodyError('body-missing', {
@@ -35,6 +34,8 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
       remedy: `Bake it first: handlebody bake ${JSON.stringify(input)} -o BODY.glb`,
     });
   }
+  const { ranges } = readMesh(document, { reading: body.mesh.reading ?? {} });
+  const { origin } = body.mesh;
   const vertexCount = body.mesh.positions.length / 3;
   const { handles, targets, options } = await readHandles(handlesName, vertexCount);
   clock.lap('read');
@@ -50,7 +51,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   irbf.targets.set(targets);
   const solved = irbf.solve({ maxIterations: MAX_ITERATIONS });
   clock.lap('solve');
-  const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3) };
+  const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3), origin };
   const restNormals = sceneNormals(ranges);
   if (restNormals) irbf.setRestNormals(restNormals);
   irbf.deform(shape.positions, restNormals && shape.normals);

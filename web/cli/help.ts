@@ -39,6 +39,7 @@ ${EXIT_CODES}`,
 
   --centers N          how many centers the deformation may bend at (200)
   --distance METHOD    fast-marching (the default), heat, mean-value or euclidean
+  --morphs WHICH       rest (the default) or present: with what the file's morph weights add
   --resolution N       voxels along the longest side, 8 to 512 (96)
   --spheres PACKING    how spheres fill the volume: skeleton (the default) or tree
   --max-spheres N      at most so many spheres (120)

@@ -31,7 +31,8 @@ function describeSurface(document: Document) {
     vertices: mesh.positions.length / 3,
     triangles: mesh.triangles.length / 3,
     components: countComponents(mesh.positions, mesh.triangles),
-    bounds: boundsOf(mesh.positions),
+    bounds: boundsOf(mesh),
+    origin: mesh.origin,
     nodes: root.listNodes().length,
     meshes: root.listMeshes().map((each) => each.getName()),
     materials: root.listMaterials().map((each) => each.getName()),
@@ -53,11 +54,13 @@ function meshOf(document: Document): Mesh {
   }
 }
 
-function boundsOf(positions: ArrayLike<number>): { low: number[]; high: number[] } | undefined {
+/** In the scene's units, whatever the positions are relative to. */
+function boundsOf({ positions, origin = [0, 0, 0] }: Mesh): { low: number[]; high: number[] } | undefined {
   if (positions.length === 0) return undefined;
   const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
   for (let i = 0; i < positions.length; i++) {
-    const [axis, x] = [i % 3, positions[i] as number];
+    const axis = i % 3;
+    const x = (positions[i] as number) + (origin[axis] as number);
     low[axis] = Math.min(low[axis] as number, x);
     high[axis] = Math.max(high[axis] as number, x);
   }
@@ -112,6 +115,7 @@ function table(facts: Facts): string[] {
     ['triangles', facts.triangles],
     ['components', facts.components],
     ['size', size],
+    ['origin', facts.origin && `${facts.origin.join(', ')}: handles count from the scene's own, distances and vertices from here`],
     ['meshes', named(facts.meshes)],
     ['materials', named(facts.materials)],
     ['textures', facts.textures || undefined],

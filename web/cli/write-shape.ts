@@ -1,14 +1,18 @@
 /** A shape in scene space, written back into the primitives that it came from, each in its own space. */
 import type { Accessor, Document, Mesh, Node, Primitive } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { Vec3 } from '../../wasm/ts/types.ts';
 import type { PrimitiveRange } from '../assets/index.ts';
-import { invertAffine, type Matrix, type Sixteen } from '../assets/transform.ts';
+import { morphOffset } from '../assets/join-scene.ts';
+import { invertAffine, type Sixteen } from '../assets/transform.ts';
 
 interface SceneShape {
   /** n×3, of all ranges together. */
   readonly positions: Float32Array;
   /** n×3. Read for primitives that have normals. */
   readonly normals: Float32Array;
+  /** What the positions are relative to. */
+  readonly origin?: Vec3 | undefined;
 }
 
 /** Normals of a document in scene space, of unit length; undefined when no primitive has any. Where one has none they point up. */
@@ -17,17 +21,23 @@ export function sceneNormals(ranges: readonly PrimitiveRange[]): Float32Array | 
   const end = ranges.at(-1);
   const normals = new Float32Array(((end?.start ?? 0) + (end?.count ?? 0)) * 3);
   const element: number[] = [];
-  for (const { primitive, start, count, matrix, node } of ranges) {
+  for (const range of ranges) {
+    const { primitive, start, count } = range;
     const stored = primitive.getAttribute('NORMAL');
     // Normals go by the inverse transposed: a row of the inverse is a column of that.
-    const inverse = stored ? inverseOf(matrix, node) : undefined;
+    const inverse = stored ? inverseOf(range) : undefined;
+    const offset = stored && offsetOf(range, 'NORMAL');
     for (let i = 0; i < count; i++) {
       const at = (start + i) * 3;
       if (!stored || !inverse) {
         normals[at + 1] = 1;
         continue;
       }
-      const [x = 0, y = 0, z = 0] = stored.getElement(i, element);
+      const [x, y, z] = stored.getElement(i, element).map((n, axis) => n + (offset?.[3 * i + axis] ?? 0)) as [
+        number,
+        number,
+        number,
+      ];
       const row = (k: number) => (inverse[k] as number) * x + (inverse[k + 1] as number) * y + (inverse[k + 2] as number) * z;
       setUnit(normals, at, [row(0), row(4), row(8)]);
     }
@@ -42,7 +52,7 @@ export function sceneNormals(ranges: readonly PrimitiveRange[]): Float32Array | 
  * Throws 'file-unsupported' naming a node that flattens its mesh, before anything is changed. Returns what people should know.
  */
 export function writeShape(document: Document, ranges: readonly PrimitiveRange[], shape: SceneShape): string[] {
-  const inverses = ranges.map(({ matrix, node }) => inverseOf(matrix, node));
+  const inverses = ranges.map((range) => inverseOf(range, shape.origin));
   const stored = ranges.map(({ primitive }) => ({
     POSITION: primitive.getAttribute('POSITION'),
     NORMAL: primitive.getAttribute('NORMAL'),
@@ -55,7 +65,7 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   ranges.forEach((range, r) => {
     const primitive = primitives[r] as Primitive;
     const before = stored[r] as (typeof stored)[number];
-    const matrix = Array.from(range.matrix).join();
+    const matrix = [...Array.from(range.matrix), ...(range.weights ?? [])].join();
     for (const attribute of ['POSITION', 'NORMAL'] as const) {
       const from = before[attribute];
       if (!from) continue;
@@ -100,23 +110,30 @@ function unshare(ranges: readonly PrimitiveRange[]): Primitive[] {
   });
 }
 
-function positionsOf({ start, count }: PrimitiveRange, scene: Float32Array, m: Sixteen): Float32Array<ArrayBuffer> {
+function positionsOf(range: PrimitiveRange, scene: Float32Array, m: Sixteen): Float32Array<ArrayBuffer> {
+  const { start, count } = range;
+  const offset = offsetOf(range, 'POSITION');
   const out = new Float32Array(count * 3);
   for (let i = 0; i < out.length; i += 3) {
     const [x, y, z] = [scene[start * 3 + i] as number, scene[start * 3 + i + 1] as number, scene[start * 3 + i + 2] as number];
-    for (let axis = 0; axis < 3; axis++)
-      out[i + axis] =
-        (m[axis] as number) * x + (m[4 + axis] as number) * y + (m[8 + axis] as number) * z + (m[12 + axis] as number);
+    for (let axis = 0; axis < 3; axis++) {
+      const place = (m[axis] as number) * x + (m[4 + axis] as number) * y + (m[8 + axis] as number) * z + (m[12 + axis] as number);
+      out[i + axis] = place - (offset?.[i + axis] ?? 0);
+    }
   }
   return out;
 }
 
-function normalsOf({ start, count, matrix: m }: PrimitiveRange, scene: Float32Array): Float32Array<ArrayBuffer> {
+function normalsOf(range: PrimitiveRange, scene: Float32Array): Float32Array<ArrayBuffer> {
+  const { start, count, matrix: m } = range;
+  const offset = offsetOf(range, 'NORMAL');
   const out = new Float32Array(count * 3);
   for (let i = 0; i < out.length; i += 3) {
     const [x, y, z] = [scene[start * 3 + i] as number, scene[start * 3 + i + 1] as number, scene[start * 3 + i + 2] as number];
     const column = (k: number) => (m[k] as number) * x + (m[k + 1] as number) * y + (m[k + 2] as number) * z;
     setUnit(out, i, [column(0), column(4), column(8)]);
+    // Not of unit length any more, until the viewer has added what is taken off here.
+    for (let axis = 0; offset && axis < 3; axis++) out[i + axis] = (out[i + axis] as number) - (offset[i + axis] as number);
   }
   return out;
 }
@@ -127,11 +144,28 @@ function setUnit(out: Float32Array, at: number, [x, y, z]: [number, number, numb
   else out.set([0, 1, 0], at);
 }
 
-function inverseOf(matrix: Matrix, node: Node): Sixteen {
-  const inverse = invertAffine(matrix);
+/** From scene space, or from what is relative to an origin in it, to a primitive's. */
+function inverseOf({ matrix, node }: PrimitiveRange, origin?: Vec3): Sixteen {
+  // Taken off before anything is inverted: what is left is small, and keeps its digits.
+  const near = Array.from(matrix, (x, i) => (i > 11 && i < 15 ? x - (origin?.[i - 12] ?? 0) : x));
+  const inverse = invertAffine(near);
   if (inverse) return inverse;
   throw new HandlebodyError('file-unsupported', {
     message: `The node "${node.getName()}" flattens its mesh (a scale of 0), so that what was deformed cannot be brought back into it.`,
     remedy: 'Give the node a scale other than 0, or apply its transform to the mesh.',
   });
+}
+
+/** What morph targets had added when the mesh was read: a viewer adds it again. */
+function offsetOf({ primitive, weights, count }: PrimitiveRange, name: 'POSITION' | 'NORMAL'): Float64Array | undefined {
+  if (!weights) return undefined;
+  const displacements = primitive.listTargets().map((target) => {
+    const moved = target.getAttribute(name);
+    return moved && Float32Array.from({ length: 3 * count }, (_, i) => moved.getElement(Math.floor(i / 3), [])[i % 3] ?? 0);
+  });
+  return morphOffset(
+    3 * count,
+    displacements.map((displacement) => displacement ?? undefined),
+    weights,
+  );
 }

@@ -1,10 +1,10 @@
 import type { BodyData } from '../../wasm/ts/runtime.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { Draggable } from '../three/draggable.ts';
-import { fetchTangents } from '../three/fetch-tangents.ts';
-import { meshFromObject } from '../three/geometry.ts';
+import { Draggable, type DraggableMaking } from '../three/draggable.ts';
+import { fetchMaking } from '../three/fetch-making.ts';
 import { BareHandles } from '../three/handles.ts';
-import { LiveGeometry, type TangentsOf } from '../three/live-geometry.ts';
+import { LiveGeometry } from '../three/live-geometry.ts';
+import { readObject } from '../three/read-object.ts';
 import type { Progress } from '../ui/progress.ts';
 import type { AskedHandle } from './handles-text.ts';
 import type { ModelOptions, ModelShowing } from './model-element.ts';
@@ -53,10 +53,15 @@ export async function showBody(options: BodyOptions): Promise<BodyShowing> {
     showing = new BodyShowing(model, options);
     // The first picture waits for nothing else.
     options.onFirst();
-    const body = model.body ?? (await bake(meshFromObject(model.object).mesh, progress, signal, tell));
-    const [hb, tangents] = await Promise.all([runtime(), fetchTangents(model.object)]);
+    const { object } = model;
+    const body = model.body ?? (await bake((await readObject(object)).mesh, progress, signal, tell));
+    const reading = body.mesh.reading ?? {};
+    const [hb, making, read] = await Promise.all([runtime(), fetchMaking(object), readObject(object, { reading })]);
     signal.throwIfAborted();
-    showing.bring(hb, body, tangents);
+    showing.bring(hb, body, {
+      makeGeometry: (parts) => new LiveGeometry(parts, making),
+      read: () => read,
+    });
     return showing;
   } catch (error) {
     showing?.dispose();
@@ -127,14 +132,14 @@ export class BodyShowing implements ModelShowing {
   }
 
   /** The body has come: from now on it can be dragged. */
-  bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData, tangents: TangentsOf | undefined): void {
+  bring(hb: Awaited<ReturnType<typeof runtime>>, body: BodyData, making: Pick<DraggableMaking, 'makeGeometry' | 'read'>): void {
     const { state, handles, onError } = this.#options;
     const asked = state?.handles ?? handles;
     const drag = new Draggable(this.#model.object, body, {
       hb,
       // The element's own style sheet is their style.
       makeOverlay: (overlay) => new BareHandles(overlay),
-      makeGeometry: (parts) => new LiveGeometry(parts, tangents),
+      ...making,
       camera: this.#frame.view.camera,
       container: this.#frame.overlay,
       onWake: () => this.#frame.view.animate(this.#step),

@@ -1,12 +1,13 @@
 import type { BakeWarning, BodyData, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
+import type { SceneWarning } from '../assets/scene-choices.ts';
 import type { View } from '../stage/view.ts';
 import { farthestVertices } from '../three/farthest.ts';
+import { fetchMaking } from '../three/fetch-making.ts';
 import { fetchModel } from '../three/fetch-model.ts';
-import { fetchTangents } from '../three/fetch-tangents.ts';
-import { meshFromObject } from '../three/geometry.ts';
 import { LiveBody } from '../three/live-body.ts';
 import { LiveGeometry } from '../three/live-geometry.ts';
 import { type LoadedModel, loadModel } from '../three/load-model.ts';
+import { readObject } from '../three/read-object.ts';
 import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
@@ -175,14 +176,15 @@ export class Studio {
     signal: AbortSignal,
     entry: ModelEntry | undefined,
   ): Promise<BodyScene> {
-    const { mesh, parts, normals } = meshFromObject(model.object);
+    const onWarning = ({ code, message, remedy }: SceneWarning) => this.#warnings.push(new PageError(code, message, remedy));
+    const reading = model.body && (model.body.mesh.reading ?? {});
+    const { mesh, parts, normals } = await readObject(model.object, reading ? { reading } : { onWarning });
     const body = model.body ?? (await this.#bake(mesh, signal));
-    const spread = () =>
-      farthestVertices(body.mesh.positions, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
+    const spread = () => farthestVertices(body.mesh, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
     const points = (body.handles ?? spread()).map(({ name, ...handle }) => ({ name, handle }));
-    const [solver, tangents] = await Promise.all([this.#parts.solver, fetchTangents(model.object)]);
+    const [solver, making] = await Promise.all([this.#parts.solver, fetchMaking(model.object)]);
     const live = new LiveBody(solver, body, normals);
-    const shown = new LiveGeometry(parts, tangents);
+    const shown = new LiveGeometry(parts, making);
     try {
       return new BodyScene({
         ...common,

@@ -3,7 +3,8 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, Irbf } from '../../wasm/ts/runtime.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
-import { meshFromObject, type ObjectMesh } from './geometry.ts';
+import { meshFromObject } from './geometry.ts';
+import type { ObjectMesh } from './object-part.ts';
 import type { SurfacePick } from './surface-pick.ts';
 
 /**
@@ -85,7 +86,7 @@ export class Deformable {
 
 /** The object's mesh. Throws 'body-mismatch' where the body was baked for another one. */
 export function bakedFrom(object: Object3D, body: BodyData): ObjectMesh {
-  const found = meshFromObject(object);
+  const found = meshFromObject(object, { reading: body.mesh.reading ?? {} });
   if (hashPositions(found.mesh.positions) === body.positionsHash) return found;
   throw new HandlebodyError('body-mismatch', {
     message: 'The body was baked for another mesh than this object’s.',

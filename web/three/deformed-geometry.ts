@@ -1,6 +1,8 @@
 import type { Intersection, Raycaster } from 'three';
-import type { ObjectPart } from './geometry.ts';
+import { standFor } from './instances-as-mesh.ts';
 import { LiveGeometry } from './live-geometry.ts';
+import { LiveMorphs } from './live-morphs.ts';
+import type { ObjectPart } from './object-part.ts';
 import type { SurfacePick } from './surface-pick.ts';
 import { TurnedTangents } from './turned-tangents.ts';
 
@@ -23,7 +25,7 @@ export class DeformedGeometry {
 
   /** Throws 'mesh-zero-extent' when a part's transform flattens it, since positions cannot be taken back through that. */
   constructor(parts: readonly ObjectPart[]) {
-    this.#live = new LiveGeometry(parts, TurnedTangents.of);
+    this.#live = new LiveGeometry(parts, { tangentsOf: TurnedTangents.of, Morphs: LiveMorphs, standFor });
     this.vertexCount = this.#live.vertexCount;
   }
 

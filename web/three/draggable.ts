@@ -12,11 +12,11 @@ import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
-import type { ObjectPart } from './geometry.ts';
 import { HandleOverlay, type HandleOverlayOptions } from './handle-overlay.ts';
 import type { BareHandles } from './handles.ts';
 import { LiveBody } from './live-body.ts';
 import { nearestVertex } from './nearest-vertex.ts';
+import type { ObjectMesh, ObjectPart } from './object-part.ts';
 import { PartFrames } from './part-frames.ts';
 import type { SurfacePick } from './surface-pick.ts';
 
@@ -49,9 +49,11 @@ export interface DraggableOptions {
 type Shown = Pick<DeformedGeometry, 'update' | 'pick' | 'dispose'>;
 
 /** What it is made of: pages that want less of it fetch less. */
-interface DraggableMaking {
+export interface DraggableMaking {
   readonly makeOverlay: (options: HandleOverlayOptions) => BareHandles;
   readonly makeGeometry: (parts: readonly ObjectPart[]) => Shown;
+  /** The object's mesh, which is the body's. */
+  readonly read: () => ObjectMesh;
 }
 
 export const DRAGGABLE_DEFAULTS = { iterations: 4, count: 6 } as const;
@@ -79,6 +81,7 @@ export function draggable(object: Object3D, body: BodyData, options: DraggableOp
     ...options,
     makeOverlay: (overlay) => new HandleOverlay(overlay),
     makeGeometry: (parts) => new DeformedGeometry(parts),
+    read: () => bakedFrom(object, body),
   });
 }
 
@@ -110,7 +113,7 @@ export class Draggable {
   /** @internal Use `draggable`. */
   constructor(object: Object3D, body: BodyData, options: DraggableOptions & DraggableMaking) {
     [this.object, this.#options] = [object, options];
-    const { parts, normals } = bakedFrom(object, body);
+    const { parts, normals } = options.read();
     this.#live = new LiveBody(options.hb, body, normals);
     this.#frames = new PartFrames(parts);
     try {
@@ -128,7 +131,7 @@ export class Draggable {
       ...(options.onDrag && { onDrag: options.onDrag }),
       ...(options.unstyled && { unstyled: true }),
     });
-    const spread = () => farthestVertices(body.mesh.positions, DRAGGABLE_DEFAULTS.count).map((vertex) => ({ vertex }));
+    const spread = () => farthestVertices(body.mesh, DRAGGABLE_DEFAULTS.count).map((vertex) => ({ vertex }));
     try {
       this.setHandles(options.handles ?? body.handles ?? spread());
     } catch (error) {
@@ -240,11 +243,11 @@ export class Draggable {
 
   #hold(handles: readonly DraggableHandle[], targets: readonly Vector3[]): void {
     this.#live.hold(handles, targets);
-    const { positions } = this.#live.data.mesh;
+    const { mesh } = this.#live.data;
     this.#handles = handles;
     this.#rest = handles.map((handle) => this.#live.rest(handle));
     this.#carriers = handles.map((handle, i) =>
-      'vertex' in handle ? handle.vertex : nearestVertex(positions, this.#rest[i] as Vector3),
+      'vertex' in handle ? handle.vertex : nearestVertex(mesh, this.#rest[i] as Vector3),
     );
     this.overlay.set(handles.map(({ name }, i) => ({ name: name ?? `Handle ${i + 1}`, position: [0, 0, 0] })));
     this.#seat();

@@ -1,14 +1,19 @@
-/** `count` vertices spread over the model: the first is farthest from the middle, each next one farthest from all before. */
-export function farthestVertices(positions: ArrayLike<number>, count: number): number[] {
-  const n = positions.length / 3;
+import type { Mesh } from '../../wasm/ts/types.ts';
+
+/** `count` vertices spread over the surface: the first is farthest from the middle, each next one farthest from all before. */
+export function farthestVertices(mesh: Pick<Mesh, 'positions' | 'triangles'>, count: number): number[] {
+  const { positions } = mesh;
+  const used = usedVertices(mesh);
   const middle = [0, 0, 0];
-  for (let i = 0; i < n * 3; i++) middle[i % 3] = (middle[i % 3] as number) + (positions[i] as number) / n;
-  const nearest = new Float64Array(n).fill(Number.POSITIVE_INFINITY);
+  for (const v of used)
+    for (let axis = 0; axis < 3; axis++)
+      middle[axis] = (middle[axis] as number) + (positions[3 * v + axis] as number) / used.length;
+  const nearest = new Float64Array(used.length).fill(Number.POSITIVE_INFINITY);
   const chosen: number[] = [];
   let [x, y, z] = middle as [number, number, number];
-  for (let round = 0; round < Math.min(count, n); round++) {
+  for (let round = 0; round < Math.min(count, used.length); round++) {
     let best = 0;
-    for (let v = 0; v < n; v++) {
+    used.forEach((v, k) => {
       const [ax, ay, az] = [
         (positions[v * 3] as number) - x,
         (positions[v * 3 + 1] as number) - y,
@@ -16,12 +21,20 @@ export function farthestVertices(positions: ArrayLike<number>, count: number): n
       ];
       const d = ax * ax + ay * ay + az * az;
       // The middle only picks the first; it is no handle itself.
-      nearest[v] = round <= 1 ? d : Math.min(nearest[v] as number, d);
-      if ((nearest[v] as number) > (nearest[best] as number)) best = v;
-    }
+      nearest[k] = round <= 1 ? d : Math.min(nearest[k] as number, d);
+      if ((nearest[k] as number) > (nearest[best] as number)) best = k;
+    });
     if (round > 0 && nearest[best] === 0) break;
-    chosen.push(best);
-    [x, y, z] = [positions[best * 3] as number, positions[best * 3 + 1] as number, positions[best * 3 + 2] as number];
+    const vertex = used[best] as number;
+    chosen.push(vertex);
+    [x, y, z] = [positions[vertex * 3] as number, positions[vertex * 3 + 1] as number, positions[vertex * 3 + 2] as number];
   }
   return chosen;
+}
+
+/** Vertices of no triangle are no part of the surface; of a cloud, all count. */
+function usedVertices({ positions, triangles }: Pick<Mesh, 'positions' | 'triangles'>): Uint32Array {
+  const used = new Uint8Array(positions.length / 3).fill(triangles.length === 0 ? 1 : 0);
+  for (const vertex of triangles) used[vertex] = 1;
+  return Uint32Array.from(used.keys()).filter((v) => used[v] === 1);
 }

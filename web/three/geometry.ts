@@ -1,113 +1,152 @@
 /** three.js object trees to the solver's typed arrays. */
-import type { BufferAttribute, InterleavedBufferAttribute, Object3D, Points, SkinnedMesh, Mesh as ThreeMesh } from 'three';
-import type { Mesh } from '../../wasm/ts/types.ts';
-import { concatenate, type MeshPart } from '../assets/concatenate.ts';
-import { IDENTITY, invertAffine, isIdentity, type Matrix, multiplyMatrices, type Sixteen } from '../assets/transform.ts';
+import type { BufferAttribute, InterleavedBufferAttribute, LOD, Object3D, Points, Mesh as ThreeMesh } from 'three';
+import type { DrawnRun } from '../assets/concatenate.ts';
+import { joinScene, morphOffset, type ScenePart } from '../assets/join-scene.ts';
+import type { SceneChoices } from '../assets/scene-choices.ts';
+import { multiplyMatrices } from '../assets/transform.ts';
+import { decode } from './decode.ts';
+import { drawnRuns, isInvisible, unreadable } from './drawn-runs.ts';
+import { type Instance, indicesOf, instancesOf, isInstanced } from './instances.ts';
+import { morphDisplacements } from './morphs.ts';
+import { collectNormals, isMesh, isPoints, isSkinned, type ObjectMesh, type ObjectPart } from './object-part.ts';
+import { skinOf } from './object-skin.ts';
+import { Places } from './places.ts';
+import { plainObject } from './plain-object.ts';
 
-/** A three.js mesh and its vertices' place in the joined mesh. */
-export interface ObjectPart {
-  readonly mesh: ThreeMesh | Points;
-  /** First vertex, and how many. */
-  readonly start: number;
-  readonly count: number;
-  /** From the part's space to the object's: 16 numbers, column-major. */
-  readonly matrix: Matrix;
-}
-
-/** The joined mesh of an object, and where its parts are. */
-export interface ObjectMesh {
-  readonly mesh: Mesh;
-  readonly parts: readonly ObjectPart[];
-  /** n×3, when every part has normals: give them to `Irbf.setRestNormals`. */
-  readonly normals: Float32Array | undefined;
-}
+type Source = Pick<ObjectPart, 'mesh' | 'instance'>;
 
 /**
- * The triangles below an object as one mesh, in depth-first order; for the scene that GLTFLoader gives this is the scene order of the
- * file. Positions are in the space of `object`, whose own transform does not count: a model may be moved after it was baked. Vertices
- * are copied as stored, quantized ones decoded; morph targets are at rest; lines and sprites are skipped, and so are points, unless there
- * is nothing else: then it is a cloud, a mesh without triangles.
+ * The triangles below an object that three.js draws, as one mesh, in depth-first order; for the scene that GLTFLoader gives this is the
+ * scene order of the file. Positions are in the space of `object`, whose own transform and visibility do not count: a model may be moved
+ * after it was baked. Vertices are copied as stored, quantized ones decoded; draw ranges, groups and materials say which triangles there
+ * are; each visible instance of an InstancedMesh or a BatchedMesh is a part of its own; an LOD gives its first level. Morph targets are at
+ * rest and hidden parts left out, unless the choices say otherwise. Lines and sprites are skipped, and so are points, unless there is nothing
+ * else: then it is a cloud, a mesh without triangles.
  *
- * A skinned mesh is taken in its bind space, before skinning: its own transform does not move it.
+ * A skinned mesh is read before skinning: where three.js shows it when all of its bones carry it alike, else through the matrix of its
+ * root bone alone, with a warning.
+ *
+ * An object that lies more than 1,000 of its diagonals from its origin gives a mesh with an `origin`, which the positions are relative to.
  *
  * Throws 'mesh-no-triangles', 'mesh-too-large' or 'mesh-index-out-of-range'.
  *
  * ```ts
- * const { mesh, parts } = meshFromObject(gltf.scene);
+ * const { mesh, parts } = meshFromObject(gltf.scene, { morphs: 'present' });
  * const body = await hb.bake(mesh);
  * ```
  */
-export function meshFromObject(object: Object3D): ObjectMesh {
-  const found: { mesh: ThreeMesh | Points; matrix: Matrix }[] = [];
-  const visit = (node: Object3D, parent: Matrix, isRoot: boolean) => {
-    if (node.matrixAutoUpdate) node.updateMatrix();
-    const matrix = isRoot ? IDENTITY : multiplyMatrices(parent, node.matrix.elements);
-    if ((isMesh(node) || isPoints(node)) && node.geometry.getAttribute('position')) {
-      found.push({ mesh: node, matrix: isSkinned(node) ? [...node.bindMatrix.elements] : matrix });
-    }
-    for (const child of node.children) visit(child, matrix, false);
+export function meshFromObject(object: Object3D, choices: SceneChoices = {}): ObjectMesh {
+  const plain = choices.onWarning ? undefined : plainObject(object);
+  return plain ?? readParts(object, choices);
+}
+
+function readParts(object: Object3D, choices: SceneChoices): ObjectMesh {
+  const found: ScenePart<Source>[] = [];
+  const leftOut = new Map<string, string[]>();
+  const places = new Places(object);
+  const takesHidden = choices.hidden === 'take' || choices.reading !== undefined;
+  const visit = (node: Object3D, isHidden: boolean) => {
+    const what = isReadable(node) ? addParts(node, isHidden) : isDrawnOtherwise(node);
+    if (what) leftOut.set(what, [...(leftOut.get(what) ?? []), node.name]);
+    for (const child of childrenOf(node)) visit(child, isHidden || (!child.visible && !isLevel(child)));
   };
-  visit(object, IDENTITY, true);
+  const addParts = (mesh: ThreeMesh | Points, isHidden: boolean): string | undefined => {
+    const reason = unreadable(mesh.geometry);
+    if (reason) return reason;
+    const instances = isInstanced(mesh) ? instancesOf(mesh) : [undefined];
+    if (!instances) return 'whose instances this release of three.js does not tell';
+    const hidden = isHidden || isInvisible(mesh);
+    for (const instance of instances) found.push(partOf(mesh, { instance, hidden, places, takesHidden }));
+    return undefined;
+  };
+  visit(object, false);
+  for (const [what, names] of leftOut)
+    choices.onWarning?.({
+      code: 'left-out',
+      message: `Left out, ${what}: ${names.length} of the object's parts${names.some(Boolean) ? ` (${names.filter(Boolean).slice(0, 3).join(', ')})` : ''}.`,
+      remedy: 'Make meshes of them, if they belong to the surface.',
+    });
 
-  const surface = found.filter(({ mesh }) => !isPoints(mesh));
-  const taken = surface.length > 0 ? surface : found;
-  const { mesh, ranges } = concatenate(taken.map(({ mesh, matrix }) => partOf(mesh, matrix)));
-  const parts = taken.map((part, i) => ({ ...part, start: ranges[i]?.start ?? 0, count: ranges[i]?.count ?? 0 }));
-  return { mesh, parts, normals: collectNormals(parts, mesh.positions.length) };
+  const { mesh, parts: joined } = joinScene(found, choices);
+  const parts = joined.map(({ source, start, count, matrix, weights }) => ({
+    ...source,
+    ...{ start, count, matrix, weights, origin: mesh.origin },
+  }));
+  return { mesh, parts, normals: collectNormals(parts, normalsOf) };
 }
 
-function partOf(mesh: ThreeMesh | Points, matrix: Matrix): MeshPart {
-  const positions = decode(mesh.geometry.getAttribute('position'));
-  return { positions, indices: mesh.geometry.index?.array, mode: isPoints(mesh) ? 0 : 4, matrix };
+interface PartOptions {
+  readonly instance: Instance | undefined;
+  readonly hidden: boolean;
+  readonly places: Places;
+  readonly takesHidden: boolean;
 }
 
-/** Three numbers a vertex, whatever the attribute's layout. */
-export function decode(attribute: BufferAttribute | InterleavedBufferAttribute): Float32Array {
-  const out = new Float32Array(attribute.count * 3);
-  for (let i = 0; i < attribute.count; i++) {
-    out[3 * i] = attribute.getX(i);
-    out[3 * i + 1] = attribute.getY(i);
-    out[3 * i + 2] = attribute.getZ(i);
+function partOf(mesh: ThreeMesh | Points, { instance, hidden, places, takesHidden }: PartOptions): ScenePart<Source> {
+  const { geometry } = mesh;
+  const meshMatrix = places.inObject(mesh);
+  const stored = geometry.getAttribute('position');
+  const range = instance?.range;
+  const indices = range ? indicesOf(geometry, range) : geometry.index?.array;
+  const drawn = range ? undefined : drawnRuns(mesh, takesHidden);
+  return {
+    source: { mesh, instance: instance && { ...instance, meshMatrix } },
+    name: mesh.name || geometry.name || 'a mesh without a name',
+    hidden: hidden || instance?.visible === false,
+    mode: isPoints(mesh) ? 0 : 4,
+    ...{ indices, drawn },
+    matrix: instance ? multiplyMatrices(meshMatrix, instance.matrix) : meshMatrix,
+    positions: () => rowsOf(stored, range?.vertices),
+    floats: stored.array instanceof Float32Array,
+    weights: instance?.weights ?? mesh.morphTargetInfluences ?? [],
+    displacements: () => morphDisplacements(geometry, 'position'),
+    ...(isSkinned(mesh) && mesh.geometry.getAttribute('skinIndex') && { skin: () => skinOf(mesh, places) }),
+  };
+}
+
+/** The rows of an attribute, or of a run of it. */
+function rowsOf(attribute: BufferAttribute | InterleavedBufferAttribute, run: DrawnRun | undefined): Float32Array {
+  const rows = decode(attribute);
+  return run ? rows.slice(3 * run.start, 3 * (run.start + run.count)) : rows;
+}
+
+function normalsOf({ mesh, weights, instance }: ObjectPart): Float32Array {
+  const local = rowsOf(mesh.geometry.getAttribute('normal'), instance?.range?.vertices);
+  if (weights) addMorphs(local, mesh, weights);
+  return local;
+}
+
+function addMorphs(normals: Float32Array, { geometry }: ThreeMesh | Points, weights: readonly number[]): void {
+  const offset = morphOffset(normals.length, morphDisplacements(geometry, 'normal'), weights);
+  for (let i = 0; i < normals.length; i += 3) {
+    const turned = [0, 1, 2].map((axis) => (normals[i + axis] as number) + (offset[i + axis] as number));
+    const length = Math.hypot(...turned) || 1;
+    for (let axis = 0; axis < 3; axis++) normals[i + axis] = (turned[axis] as number) / length;
   }
-  return out;
 }
 
-function collectNormals(parts: readonly ObjectPart[], length: number): Float32Array | undefined {
-  if (!parts.every(({ mesh, count }) => mesh.geometry.getAttribute('normal')?.count === count)) return undefined;
-  const normals = new Float32Array(length);
-  for (const { mesh, start, matrix } of parts) {
-    const local = decode(mesh.geometry.getAttribute('normal'));
-    if (!isIdentity(matrix)) transformNormals(local, matrix);
-    normals.set(local, start * 3);
-  }
-  return normals;
+/** Which children are drawn: of an LOD only one level at a time, and the first is the finest. */
+function childrenOf(node: Object3D): readonly Object3D[] {
+  if (!isLod(node)) return node.children;
+  const others = node.levels.slice(1).map(({ object }) => object);
+  return node.children.filter((child) => !others.includes(child));
 }
 
-/** Normals go by the inverse transposed, which keeps them outward where the matrix mirrors. */
-function transformNormals(normals: Float32Array, matrix: Matrix): void {
-  const inverse = invertAffine(matrix);
-  if (!inverse) return;
-  const [i0, i1, i2, , i4, i5, i6, , i8, i9, i10] = inverse as Sixteen;
-  for (let k = 0; k < normals.length; k += 3) {
-    const [nx, ny, nz] = [normals[k] as number, normals[k + 1] as number, normals[k + 2] as number];
-    const x = i0 * nx + i1 * ny + i2 * nz;
-    const y = i4 * nx + i5 * ny + i6 * nz;
-    const z = i8 * nx + i9 * ny + i10 * nz;
-    const scale = 1 / (Math.hypot(x, y, z) || 1);
-    normals[k] = x * scale;
-    normals[k + 1] = y * scale;
-    normals[k + 2] = z * scale;
-  }
+/** three.js shows and hides levels as the camera moves. */
+function isLevel(node: Object3D): boolean {
+  return node.parent !== null && isLod(node.parent) && node.parent.levels[0]?.object === node;
 }
 
-function isMesh(node: Object3D): node is ThreeMesh {
-  return (node as Partial<ThreeMesh>).isMesh === true;
+function isReadable(node: Object3D): node is ThreeMesh | Points {
+  return (isMesh(node) || isPoints(node)) && node.geometry.getAttribute('position') !== undefined;
 }
 
-export function isPoints(node: Object3D): node is Points {
-  return (node as Partial<Points>).isPoints === true;
+/** What three.js draws that is no surface. */
+function isDrawnOtherwise(node: Object3D): string | undefined {
+  if ('isLine' in node) return 'being lines';
+  return 'isSprite' in node ? 'being sprites' : undefined;
 }
 
-export function isSkinned(mesh: Object3D): mesh is SkinnedMesh {
-  return (mesh as Partial<SkinnedMesh>).isSkinnedMesh === true;
+function isLod(node: Object3D): node is LOD {
+  return 'isLOD' in node;
 }

@@ -63,12 +63,19 @@ export class LiveBody {
   /** Where a handle is at rest, model units. */
   rest(handle: Handle): Vector3 {
     if ('at' in handle) return new Vector3(...handle.at);
-    return new Vector3().fromArray(this.data.mesh.positions, handle.vertex * 3);
+    return this.#fromBody(new Vector3().fromArray(this.data.mesh.positions, handle.vertex * 3));
   }
 
   /** Where a vertex is now. */
   vertex(index: number, out = new Vector3()): Vector3 {
-    return out.fromArray(this.positions, index * 3);
+    return this.#fromBody(out.fromArray(this.positions, index * 3));
+  }
+
+  /** A body far from the model's origin has one of its own. */
+  #fromBody(place: Vector3): Vector3 {
+    const { origin } = this.data.mesh;
+    if (origin) place.set(place.x + origin[0], place.y + origin[1], place.z + origin[2]);
+    return place;
   }
 
   /** Where the point of a handle is now, whether it is held or not. */

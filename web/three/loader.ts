@@ -14,7 +14,7 @@ import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from '../assets/body-codec.ts';
 import { type PoseSpaceData, parsePoseSpace } from '../assets/pose-space-schema.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
-import { meshFromObject } from './geometry.ts';
+import { readObject } from './read-object.ts';
 
 /** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
 export interface LoadedPoseSpace extends PoseSpaceData {
@@ -69,7 +69,8 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   }
 
   async afterRoot(gltf: GLTF): Promise<void> {
-    const body = await this.#readBody(gltf.scene);
+    // A file without scenes shows nothing, and has no `gltf.scene`.
+    const body = gltf.scene && (await this.#readBody(gltf.scene));
     const poseSpaces = this.#readPoseSpaces(gltf);
     gltf.userData.handlebody = { ...(body && { body }), poseSpaces } satisfies HandlebodyData;
   }
@@ -80,7 +81,7 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
     const header = parseStoredHeader(json);
     const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
     const arrays = Object.fromEntries(await Promise.all(entries)) as Partial<StoredArrays>;
-    return decodeBody({ header, arrays, mesh: () => meshFromObject(scene).mesh });
+    return decodeBody({ header, arrays, mesh: async () => (await readObject(scene, { reading: header.reading ?? {} })).mesh });
   }
 
   /** The loader's arrays may be windows on one buffer, which posting a body to a worker would take along: so they are copied. */
@@ -107,10 +108,12 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
       if (!json) return [];
       const space = parsePoseSpace(json, { targetCount: primitives[0]?.targets?.length ?? 0 });
       const meshes: ThreeMesh[] = [];
-      gltf.scene.traverse((object) => {
-        const isMesh = (object as Partial<ThreeMesh>).isMesh === true;
-        if (isMesh && this.#parser.associations.get(object)?.meshes === index) meshes.push(object as ThreeMesh);
-      });
+      for (const scene of gltf.scenes) {
+        scene.traverse((object) => {
+          const isMesh = (object as Partial<ThreeMesh>).isMesh === true;
+          if (isMesh && this.#parser.associations.get(object)?.meshes === index) meshes.push(object as ThreeMesh);
+        });
+      }
       return [{ ...space, meshes }];
     });
   }

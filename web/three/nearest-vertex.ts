@@ -1,5 +1,8 @@
-/** The vertex nearest to a place. */
-export function nearestVertex(positions: ArrayLike<number>, { x, y, z }: { x: number; y: number; z: number }): number {
+import type { Mesh } from '../../wasm/ts/types.ts';
+
+/** The vertex nearest to a place, in the model's units. */
+export function nearestVertex({ positions, origin = [0, 0, 0] }: Mesh, place: { x: number; y: number; z: number }): number {
+  const [x, y, z] = [place.x - origin[0], place.y - origin[1], place.z - origin[2]];
   let [best, least] = [0, Number.POSITIVE_INFINITY];
   for (let v = 0; v < positions.length / 3; v++) {
     const [dx, dy, dz] = [

@@ -1,5 +1,5 @@
 import { Matrix4, type SkinnedMesh } from 'three';
-import { isSkinned, type ObjectPart } from './geometry.ts';
+import { isSkinned, type ObjectPart } from './object-part.ts';
 import { updateFrame } from './update-frame.ts';
 
 const bone = new Matrix4();
@@ -12,7 +12,11 @@ export class PartFrames {
   readonly #parts: readonly (ObjectPart & { readonly fromObject: Matrix4 })[];
 
   constructor(parts: readonly ObjectPart[]) {
-    this.#parts = parts.map((part) => ({ ...part, fromObject: new Matrix4().fromArray(Array.from(part.matrix)).invert() }));
+    this.#parts = parts.map((part) => {
+      // Instances are shown as one mesh, which lies where theirs did.
+      const matrix = part.instance?.meshMatrix ?? part.matrix;
+      return { ...part, fromObject: new Matrix4().fromArray(Array.from(matrix)).invert() };
+    });
   }
 
   /** Brings what `of` reads up to date: the places of the meshes and their bones in the world. */
@@ -27,7 +31,8 @@ export class PartFrames {
     const { mesh, start, fromObject } = part;
     if (!isSkinned(mesh)) return out.multiplyMatrices(mesh.matrixWorld, fromObject);
     blendBones(mesh, v - start, out);
-    return out.premultiply(mesh.bindMatrixInverse).premultiply(mesh.matrixWorld);
+    out.premultiply(mesh.bindMatrixInverse).premultiply(mesh.matrixWorld);
+    return out.multiply(mesh.bindMatrix).multiply(fromObject);
   }
 }
 

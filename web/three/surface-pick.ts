@@ -1,5 +1,6 @@
 import { type BufferGeometry, type Intersection, Matrix4, type Raycaster, type SkinnedMesh, Triangle, Vector3 } from 'three';
-import { isPoints, isSkinned, type ObjectPart } from './geometry.ts';
+import type { LiveMorphs } from './live-morphs.ts';
+import { isPoints, isSkinned, type ObjectPart } from './object-part.ts';
 import { updateFrame } from './update-frame.ts';
 
 /** What a ray hits of a deformed surface. */
@@ -17,6 +18,7 @@ export interface SurfacePick {
 /** A part of which the geometry at rest is known. */
 interface RestingPart extends ObjectPart {
   readonly original: BufferGeometry;
+  readonly morphs?: LiveMorphs | undefined;
 }
 
 /** The nearest hit of the parts as they are now, skinned and morphed. */
@@ -50,6 +52,8 @@ export function surfacePick(parts: readonly RestingPart[], hit: Intersection): S
   const stored = part.original.getAttribute('position');
   corners.forEach((vertex, i) => {
     rest.addScaledVector(corner.fromBufferAttribute(stored, vertex), weights[i] as number);
+    const offset = part.morphs?.offset;
+    if (offset) rest.addScaledVector(corner.fromArray(offset, 3 * vertex), weights[i] as number);
   });
   const nearest = corners[weights.indexOf(Math.max(...weights))] as number;
   const { point, distance } = hit;

@@ -1,5 +1,5 @@
 import { BufferAttribute, type BufferGeometry, DynamicDrawUsage } from 'three';
-import { decode } from './geometry.ts';
+import { decode } from './decode.ts';
 
 /** A triangle this flat, as sin² of the angle at a corner, says nothing of directions in its plane. */
 const FLAT = 1e-12;

@@ -1,4 +1,4 @@
-import { isSkinned, type ObjectPart } from './geometry.ts';
+import { isSkinned, type ObjectPart } from './object-part.ts';
 
 /** Brings a part's place in the world up to date, and that of the bones that carry it. */
 export function updateFrame({ mesh }: ObjectPart): void {

@@ -1,6 +1,6 @@
 import type { Mesh } from 'three';
-import { meshFromObject } from '../../three/geometry.ts';
 import { loadModel } from '../../three/load-model.ts';
+import { readObject } from '../../three/read-object.ts';
 import { notFetched } from '../../ui/lazy.ts';
 
 const HERE = import.meta.url;
@@ -24,7 +24,7 @@ async function fetchOnce(file: string, what: string) {
   const response = await fetchBeside(file).catch(() => undefined);
   if (!response?.ok) throw await notFetched(what);
   const { object } = await loadModel(await response.arrayBuffer());
-  const { mesh } = meshFromObject(object);
+  const { mesh } = await readObject(object);
   object.traverse((part) => (part as Partial<Mesh>).geometry?.dispose());
   return { positions: Float32Array.from(mesh.positions), triangles: Uint32Array.from(mesh.triangles) };
 }

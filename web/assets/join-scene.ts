@@ -1,0 +1,167 @@
+/**
+ * The parts of a scene as one mesh: which of them count, in which shape, and what is said about it. glTF-Transform's documents and
+ * three.js' objects are both read through here, so that the same model gives the same vertices, to the last bit.
+ */
+
+import { chooseOrigin } from '../../wasm/ts/origin.ts';
+import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
+import { concatenate, type DrawnRun, type MeshRange, type PartMode } from './concatenate.ts';
+import type { SceneChoices, SceneWarning } from './scene-choices.ts';
+import { type PartSkin, skinFrame } from './skin-frame.ts';
+import type { Matrix } from './transform.ts';
+
+/** Something that is drawn as triangles or points, in the scene's order. Arrays are asked for when they are needed. */
+export interface ScenePart<Source> {
+  readonly source: Source;
+  /** As messages call it. */
+  readonly name: string;
+  readonly hidden: boolean;
+  readonly mode: PartMode;
+  readonly indices: ArrayLike<number> | undefined;
+  readonly drawn?: readonly DrawnRun[] | undefined;
+  /** From the part's space to the scene's. */
+  readonly matrix: Matrix;
+  /** n×3, as stored. */
+  readonly positions: () => Float32Array;
+  /** Whether those are stored as floats, and not as integers under a scale. */
+  readonly floats: boolean;
+  /** One weight for each morph target, as they are now. */
+  readonly weights: readonly number[];
+  /** For each morph target what it adds to the positions, n×3. */
+  readonly displacements: () => readonly (Float32Array | undefined)[];
+  readonly skin?: (() => PartSkin | undefined) | undefined;
+}
+
+/** A part of the joined mesh. */
+interface JoinedPart<Source> extends MeshRange {
+  readonly source: Source;
+  /** From the part's space to the scene's: 16 numbers, column-major. */
+  readonly matrix: Matrix;
+  /** The weights of the morph targets that are in the positions, if any. */
+  readonly weights: readonly number[] | undefined;
+}
+
+interface JoinedScene<Source> {
+  readonly mesh: Mesh;
+  readonly parts: readonly JoinedPart<Source>[];
+}
+
+/** Throws 'mesh-no-triangles', 'mesh-too-large' or 'mesh-index-out-of-range'. */
+export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: SceneChoices): JoinedScene<Source> {
+  const warn = (code: SceneWarning['code'], message: string, remedy: string) => choices.onWarning?.({ code, message, remedy });
+  const known = choices.reading;
+  const reading = {
+    skipped: [] as number[],
+    morphs: {} as Record<number, readonly number[]>,
+    skins: {} as Record<number, number[]>,
+  };
+  const isSkipped = (part: ScenePart<Source>, number: number) =>
+    known ? (known.skipped?.includes(number) ?? false) : part.hidden && choices.hidden !== 'take';
+
+  const numbered = found.map((part, number) => ({ part, number }));
+  const visible = numbered.filter(({ part, number }) => {
+    const skipped = isSkipped(part, number);
+    if (skipped) reading.skipped.push(number);
+    return !skipped;
+  });
+  const surface = visible.filter(({ part }) => part.mode !== 0);
+  if (surface.length > 0 && surface.length < visible.length)
+    warn(
+      'left-out',
+      `Points beside the surface were left out: ${visible.length - surface.length} of them are parts of the scene.`,
+      'Bake them by themselves, as a cloud.',
+    );
+
+  const unshown = new Set<string>();
+  const posed = new Set<string>();
+  const parts = (surface.length > 0 ? surface : visible).map(({ part, number }) => {
+    const stored = part.positions();
+    const weights = known ? known.morphs?.[number] : choices.morphs === 'present' && isMoved(part) ? [...part.weights] : undefined;
+    if (!known && !weights && isMoved(part)) unshown.add(part.name);
+    if (weights) reading.morphs[number] = weights;
+    const positions = weights ? morphed(stored, part.displacements(), weights) : stored;
+    const kept = known?.skins?.[number];
+    const skin = kept ? undefined : part.skin?.();
+    const frame = kept ? { matrix: kept, posed: false } : skin && skinFrame(positions, skin);
+    if (frame?.posed) posed.add(part.name);
+    if (frame) reading.skins[number] = Array.from(frame.matrix);
+    return { part, weights, positions, matrix: frame?.matrix ?? part.matrix };
+  });
+  const { mesh, ranges } = concatenate(
+    parts.map(({ part: { indices, drawn, mode }, positions, matrix }) => ({ indices, drawn, mode, positions, matrix })),
+  );
+
+  if (unshown.size > 0)
+    warn(
+      'morphs-at-rest',
+      `Morph targets of ${named(unshown)} have weights, and the shape at rest was read, without what they add.`,
+      "Read it with morphs: 'present' (--morphs present) for the shape that is shown.",
+    );
+  if (posed.size > 0)
+    warn(
+      'skin-posed',
+      `The skeleton of ${named(posed)} stands in a pose, and the skin was read in its rest shape, where its root joint puts it.`,
+      'Deform the rest shape, which the skeleton then poses; or apply the pose in a modeling program and export the model again.',
+    );
+  const coarse = parts.filter(({ part, positions }) => part.floats && isCoarse(positions)).map(({ part }) => part.name);
+  if (coarse.length > 0)
+    warn(
+      'positions-coarse',
+      `The vertices of ${named(new Set(coarse))} are stored more than 1,000 of its diagonals from its origin, where floats are too far apart for its shape.`,
+      'Move the mesh to its origin in the program that made it, and put the distance into its node.',
+    );
+  const told = Object.fromEntries(Object.entries(reading).filter(([, value]) => Object.keys(value).length > 0)) as MeshReading;
+  return {
+    mesh: Object.keys(told).length > 0 ? { ...mesh, reading: told } : mesh,
+    parts: parts.map(({ part, weights, matrix }, i) => ({
+      ...(ranges[i] as MeshRange),
+      source: part.source,
+      matrix,
+      weights,
+    })),
+  };
+}
+
+function isMoved({ weights }: Pick<ScenePart<unknown>, 'weights'>): boolean {
+  return weights.some((weight) => weight !== 0);
+}
+
+/** What morph targets add at these weights, n×3. */
+export function morphOffset(
+  length: number,
+  displacements: readonly (ArrayLike<number> | undefined)[],
+  weights: readonly number[],
+): Float64Array {
+  const sum = new Float64Array(length);
+  displacements.forEach((displacement, k) => {
+    const weight = weights[k] ?? 0;
+    if (!displacement || weight === 0) return;
+    for (let i = 0; i < sum.length; i++) sum[i] = (sum[i] as number) + weight * (displacement[i] as number);
+  });
+  return sum;
+}
+
+function morphed(
+  positions: Float32Array,
+  displacements: readonly (Float32Array | undefined)[],
+  weights: readonly number[],
+): Float64Array {
+  return morphOffset(positions.length, displacements, weights).map((offset, i) => (positions[i] as number) + offset);
+}
+
+function isCoarse(positions: ArrayLike<number>): boolean {
+  const low: [number, number, number] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+  const high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  for (let i = 0; i < positions.length; i++) {
+    const [axis, x] = [i % 3, positions[i] as number];
+    low[axis] = Math.min(low[axis] as number, x);
+    high[axis] = Math.max(high[axis] as number, x);
+  }
+  return chooseOrigin(low, high) !== undefined;
+}
+
+/** Up to three names, and how many more. */
+function named(names: ReadonlySet<string>): string {
+  const [some, more] = [[...names].slice(0, 3).map((name) => `"${name}"`), names.size - 3];
+  return some.join(', ') + (more > 0 ? ` and ${more} more` : '');
+}
