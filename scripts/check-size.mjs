@@ -14,23 +14,26 @@ const SITE = at('build', 'site');
 /** @typedef {Record<string, Chunk>} Manifest */
 /** @typedef {{ file: string, bytes: number }[]} Sizes */
 
+/** What only some models need, which those of the site do not: tangents, morph targets, skins, instances, parts that are not drawn whole. */
+const OF_SOME_MODELS = [/^three\/(turned-tangents|geometry|live-morphs|instances-as-mesh)/, /^_morphs/];
+
 /** The smaller wasm may take 185 kB of each (.size-limit.json). */
 const PAGES = [
   {
     name: 'studio',
     manifest: '.vite/manifest.json',
     page: 'studio/index.html',
-    // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm; it may have tangents to turn.
-    later: [/^worker\//, /^three\/turned-tangents/],
+    // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
+    later: [/^worker\//, ...OF_SOME_MODELS],
     budget: { 'with three.js': 405_000, without: 248_000 },
   },
   {
     name: 'one tag',
     manifest: ELEMENTS_MANIFEST,
     page: 'element/index.ts',
-    // What another tag shows, what bakes, and what only a model with tangents needs, which ours have not.
+    // What another tag shows, and what bakes.
     later: [
-      /^three\/turned-tangents/,
+      ...OF_SOME_MODELS,
       /^element\/(figure|pose)-showing/,
       /^figures\//,
       /^worker\//,
