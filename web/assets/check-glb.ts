@@ -1,5 +1,6 @@
 /** The container of a GLB: header and chunks. Every byte that is read was checked to be there. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { asBytes, type Bytes } from './bytes.ts';
 import { checkGltf } from './check-gltf.ts';
 import type { GltfJson } from './gltf-json.ts';
 
@@ -9,7 +10,7 @@ const BIN_CHUNK = 0x004e4942;
 
 /** What files look like that people drop by mistake, by their first characters. */
 const LOOK_ALIKES: readonly (readonly [RegExp, string, string])[] = [
-  [/^\s*\{/, 'a .gltf in text form', 'Export it as one binary .glb file instead.'],
+  [/^\s*\{/, 'a .gltf in text form', 'Read it with readGltf, which takes its files too, or export it as one binary .glb file.'],
   [/^\s*</, 'a web page or XML, perhaps an error page saved under this name', 'Download the model again and look at what arrives.'],
   [/^\x89PNG/, 'a PNG picture', 'Give a .glb model.'],
   [/^\xff\xd8\xff/, 'a JPEG picture', 'Give a .glb model.'],
@@ -40,7 +41,23 @@ export interface GlbParts {
  * console.log(json.asset);
  * ```
  */
-export function checkGlb(bytes: Uint8Array): GlbParts {
+export function checkGlb(bytes: Bytes): GlbParts {
+  const { json, bin, binStart, length } = splitGlb(asBytes(bytes));
+  return { json: checkGltf(json, { binLength: bin?.length, jsonStart: 20, binStart, fileLength: length }), bin };
+}
+
+/** A GLB's chunks, its JSON parsed but not looked into. */
+export interface GlbChunks {
+  readonly json: unknown;
+  readonly bin: Uint8Array | undefined;
+  /** Where the binary chunk begins, or 0. */
+  readonly binStart: number;
+  /** Of the file, as its header says it. */
+  readonly length: number;
+}
+
+/** The container alone: throws as `checkGlb` does, but for what is in the JSON. */
+export function splitGlb(bytes: Uint8Array): GlbChunks {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   checkMagic(bytes);
   if (bytes.length < 20) throw truncated(`ends after ${bytes.length} bytes, within its header`, bytes.length);
@@ -76,10 +93,11 @@ export function checkGlb(bytes: Uint8Array): GlbParts {
     offset = start + chunkLength;
   }
   if (!json) throw invalid('has no JSON chunk', 12);
-  return { json: checkGltf(parseJson(json), { binLength: bin?.length, jsonStart: 20, binStart, fileLength: length }), bin };
+  return { json: parseJson(json), bin, binStart, length };
 }
 
-function checkMagic(bytes: Uint8Array): void {
+/** Throws 'file-not-glb', saying what the bytes look like, or 'file-truncated'. */
+export function checkMagic(bytes: Uint8Array): void {
   if (bytes.length >= 4 && bytes[0] === 0x67 && new DataView(bytes.buffer, bytes.byteOffset, 4).getUint32(0, true) === MAGIC)
     return;
   if (bytes.length === 0) {
