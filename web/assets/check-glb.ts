@@ -47,7 +47,7 @@ export function checkGlb(bytes: Bytes): GlbParts {
 }
 
 /** A GLB's chunks, its JSON parsed but not looked into. */
-export interface GlbChunks {
+interface GlbChunks {
   readonly json: unknown;
   readonly bin: Uint8Array | undefined;
   /** Where the binary chunk begins, or 0. */

@@ -38,7 +38,7 @@ interface Stream {
 }
 
 /** The extension of a buffer view or a buffer, if it has one. */
-export function meshoptOf(owner: GltfJson): GltfJson | undefined {
+function meshoptOf(owner: GltfJson): GltfJson | undefined {
   const extensions = asObject(owner.extensions) ?? {};
   return NAMES.map((name) => asObject(extensions[name])).find((found) => found !== undefined);
 }

@@ -55,7 +55,7 @@ abstract class KeptProperty extends ExtensionProperty<IKeptProperty> {
 }
 
 /** What all of them do; each has its name, which glTF-Transform looks for on the class. */
-export abstract class KeptExtension extends Extension {
+abstract class KeptExtension extends Extension {
   abstract createKept(): KeptProperty;
 
   override read(context: ReaderContext): this {

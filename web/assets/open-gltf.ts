@@ -15,10 +15,10 @@ export async function openGltf(bytes: Uint8Array, options: GltfReadOptions = {})
 }
 
 /** The same as the bytes of a GLB that is whole and plain: those given, where they are so already. */
-export async function openAsGlb(bytes: Uint8Array<ArrayBuffer>, options: GltfReadOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
+export async function openAsGlb(bytes: Uint8Array, options: GltfReadOptions = {}): Promise<Uint8Array> {
   const parts = await openGltf(bytes, options);
   const isWhole = !looksLikeGltf(bytes) && !isUnusual(bytes);
-  return isWhole ? bytes : (await import('./plain-gltf.ts')).packGlb(parts);
+  return isWhole ? bytes : (await import('./pack-glb.ts')).packGlb(parts);
 }
 
 /** Whether bytes are the text of a JSON object, in any of the encodings that editors write. */

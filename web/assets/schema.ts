@@ -107,6 +107,12 @@ export function parseBodyHeader(json: unknown): BodyHeader {
   return header;
 }
 
+/** What a body says besides its arrays, checked: what both writers put into a file. Throws as `parseBodyHeader` does. */
+export function headerOf(body: BodyData): BodyHeader {
+  const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
+  return parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles });
+}
+
 /** More than these cannot be told apart. */
 const MAX_HANDLES = 1000;
 

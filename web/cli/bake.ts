@@ -1,9 +1,11 @@
 import { load } from '../../wasm/ts/index.ts';
 import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
+import { refuseInstancing } from '../assets/gpu-instancing.ts';
 import { attachBody, readMesh } from '../assets/index.ts';
 import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
+import { readBack } from './read-back.ts';
 import type { Run } from './run.ts';
 
 const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
@@ -20,11 +22,12 @@ export const BAKE_OPTIONS: Options = {
 
 /** `handlebody bake`: a model with its interior distances in it. */
 export async function bakeCommand({ values, words, report, signal, clock }: Run): Promise<void> {
-  const input = theFile('bake', words, 'a model: a .glb, .obj or .ply file');
+  const input = theFile('bake', words, 'a model: a .glb, .gltf, .obj or .ply file');
   const options = bakeOptions(values);
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
   const { document, format } = await readModel(await readInput(input), input, report);
+  refuseInstancing(document);
   const { mesh } = readMesh(document);
   clock.lap('read');
   const hb = await load({ signal });
@@ -35,6 +38,7 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   clock.lap('bake');
   await attachBody(document, body);
   const bytes = await modelBytes(document);
+  await readBack(bytes, { positionsHash: body.positionsHash });
   await writeOutput(output, bytes, signal);
   clock.lap('write');
 

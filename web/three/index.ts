@@ -6,6 +6,7 @@ export { Deformable, deformable } from './deformable.ts';
 export { DeformedGeometry } from './deformed-geometry.ts';
 export { DRAGGABLE_DEFAULTS, Draggable, type DraggableHandle, type DraggableOptions, draggable } from './draggable.ts';
 export { embeddedTextures } from './embedded-textures.ts';
+export { type ExportedData, handlebodyExporterPlugin } from './exporter.ts';
 export { meshFromObject, type ObjectMesh, type ObjectPart } from './geometry.ts';
 export { HandleOverlay, type HandleOverlayOptions } from './handle-overlay.ts';
 export { HANDLE_STYLE } from './handle-style.ts';
