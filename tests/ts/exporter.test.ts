@@ -176,12 +176,9 @@ describe('handlebodyExporterPlugin', () => {
 
   it('puts pose spaces on their meshes, though those share geometry and material', async () => {
     const [geometry, material] = [faceGeometry(), new MeshBasicMaterial()];
-    const [a, b, plain, c] = ['a', 'b', 'plain', 'c'].map((name) => Object.assign(new Mesh(geometry, material), { name })) as [
-      Mesh,
-      Mesh,
-      Mesh,
-      Mesh,
-    ];
+    const [a, b, plain, c] = ['a', 'b', 'plain', 'c'].map((name) =>
+      Object.assign(new Mesh(geometry, material), { name }),
+    ) as unknown as [Mesh, Mesh, Mesh, Mesh];
     const root = new Group().add(a, b, plain, c);
     const glb = await exported(root, { poseSpaces: [spaceOf('happy', a, c), spaceOf('sad', b)] });
     const { poseSpaces } = handlebodyData(await loaded(glb));
