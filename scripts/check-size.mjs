@@ -22,7 +22,7 @@ const PAGES = [
     page: 'studio/index.html',
     // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm; it may have tangents to turn,
     // and its data elsewhere or compressed.
-    later: [/^worker\//, /^three\/turned-tangents/, /^assets\/(plain-gltf|pack-glb)/, /^studio\/dropped-folder/],
+    later: [/^worker\//, /^three\/turned-tangents/, /^assets\/open-unusual/, /^studio\/dropped-folder/],
     budget: { 'with three.js': 405_000, without: 248_000 },
   },
   {
@@ -37,7 +37,7 @@ const PAGES = [
       /^worker\//,
       /wasm\/ts\/index/,
       /^_bake-in-worker/,
-      /^assets\/(plain-gltf|pack-glb)/,
+      /^assets\/open-unusual/,
     ],
     budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 40_000 },
   },

@@ -1,6 +1,5 @@
 import type { Document } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import type { Mesh } from '../../wasm/ts/types.ts';
 import { type BodyProperty, HANDLEBODY_BODY, readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
 import { theFile } from './arguments.ts';
 import { describeBody } from './bake.ts';
@@ -24,7 +23,7 @@ export async function inspectCommand({ words, report }: Run): Promise<void> {
 
 function describeSurface(document: Document) {
   const root = document.getRoot();
-  const mesh = meshOf(document);
+  const { mesh } = readMesh(document);
   const primitives = root.listMeshes().flatMap((each) => each.listPrimitives());
   const used = root.listExtensionsUsed().map(({ extensionName }) => extensionName);
   return {
@@ -41,16 +40,6 @@ function describeSurface(document: Document) {
     morphTargets: primitives.reduce((most, primitive) => Math.max(most, primitive.listTargets().length), 0),
     extensions: used,
   };
-}
-
-/** A scene without triangles is a mesh of none. */
-function meshOf(document: Document): Mesh {
-  try {
-    return readMesh(document).mesh;
-  } catch (error) {
-    if (!(error instanceof HandlebodyError) || error.code !== 'mesh-no-triangles') throw error;
-    return { positions: new Float32Array(), triangles: new Uint32Array() };
-  }
 }
 
 function boundsOf(positions: ArrayLike<number>): { low: number[]; high: number[] } | undefined {

@@ -3,7 +3,7 @@ import path from 'node:path';
 import type { Document } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { meshDocument, readGlb, readGltf, readObj, readPly, writeGlb } from '../assets/index.ts';
-import { looksLikeGltf } from '../assets/open-gltf.ts';
+import { looksLikeGltf } from '../assets/open-unusual.ts';
 import { filesBeside } from './files-beside.ts';
 import type { Report } from './report.ts';
 
