@@ -14,8 +14,8 @@ const SITE = at('build', 'site');
 /** @typedef {Record<string, Chunk>} Manifest */
 /** @typedef {{ file: string, bytes: number }[]} Sizes */
 
-/** What only some models need, which those of the site do not: tangents, morph targets, skins, instances, parts that are not drawn whole. */
-const OF_SOME_MODELS = [/^three\/(turned-tangents|geometry|live-morphs|instances-as-mesh)/, /^_morphs/];
+/** What only some models need, which those of the site do not: tangents, morph targets, skins, instances, parts that are not drawn whole, data elsewhere or compressed. */
+const OF_SOME_MODELS = [/^three\/(turned-tangents|geometry|live-morphs|instances-as-mesh)/, /^_morphs/, /^assets\/open-unusual/];
 
 /** The smaller wasm may take 185 kB of each (.size-limit.json). */
 const PAGES = [
@@ -24,7 +24,7 @@ const PAGES = [
     manifest: '.vite/manifest.json',
     page: 'studio/index.html',
     // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
-    later: [/^worker\//, ...OF_SOME_MODELS],
+    later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/dropped-folder/],
     budget: { 'with three.js': 405_000, without: 248_000 },
   },
   {
@@ -39,6 +39,7 @@ const PAGES = [
       /^worker\//,
       /wasm\/ts\/index/,
       /^_bake-in-worker/,
+      /^assets\/open-unusual/,
     ],
     budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 40_000 },
   },

@@ -29,11 +29,18 @@ function container(json: object): Uint8Array {
   return Buffer.concat([Buffer.from(Uint32Array.of(0x46546c67, 2, 20 + chunk.length, chunk.length, 0x4e4f534a).buffer), chunk]);
 }
 
+const gltf = (uri: string) => JSON.stringify({ asset: { version: '2.0' }, buffers: [{ uri, byteLength: 1000 }] });
+
 const files: Record<string, string | Uint8Array> = {
   'good.obj': OBJ(),
   'damaged.obj': OBJ('v 1 2'),
   'open.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\n',
   'page.glb': '<!DOCTYPE html><html></html>',
+  'apart.gltf': gltf('none%20here.bin'),
+  'cut.gltf': gltf('good.json'),
+  'spy.gltf': gltf('..%2fgood.bin'),
+  'far.json': '{"handles": [{"vertex": 0, "to": [0, 1e39, 0]}]}',
+  'huge.json': '{"handles": [{"vertex": 0, "to": [0, 0, 0], "scale": [1e308, 1, 1]}]}',
   'text.gltf': '{"asset": {"version": "2.0"}}',
   'empty.glb': '',
   'cut.glb': readFileSync(SPOT).subarray(0, 5000),
@@ -64,7 +71,26 @@ describe('exit codes', () => {
     ['a model that is not there', ['bake', 'none.glb', '-o', 'out.glb'], EXIT.input, 'file-unreadable'],
     ['a folder for a model', ['bake', '.', '-o', 'out.glb'], EXIT.input, 'file-unreadable'],
     ['a web page for a model', ['bake', 'page.glb', '-o', 'out.glb'], EXIT.input, 'file-not-glb'],
-    ['a .gltf', ['inspect', 'text.gltf'], EXIT.input, 'file-not-glb'],
+    ['a .gltf without a surface', ['inspect', 'text.gltf'], EXIT.refused, 'mesh-no-triangles'],
+    ['a GLB without a surface', ['inspect', 'bare.glb'], EXIT.refused, 'mesh-no-triangles'],
+    ['a .gltf without its buffer', ['bake', 'apart.gltf', '-o', 'out.glb'], EXIT.input, 'file-unreadable'],
+    ['a .gltf whose buffer is cut off', ['bake', 'cut.gltf', '-o', 'out.glb'], EXIT.input, 'file-truncated'],
+    ['a .gltf that looks outside its folder', ['bake', 'spy.gltf', '-o', 'out.glb'], EXIT.input, 'file-unsupported'],
+    ['a texture that is not there', ['bake', 'outside.glb', '-o', 'out.glb'], EXIT.input, 'file-unreadable'],
+    ['an output without an ending', ['bake', 'good.obj', '-o', 'out'], EXIT.usage, 'usage'],
+    ['an output in a circle of links', ['bake', 'good.obj', '-o', 'circle.glb'], EXIT.output, 'output-unwritable'],
+    [
+      'a handle that goes too far',
+      ['deform', 'baked.glb', '--handles', 'far.json', '-o', 'out.glb'],
+      EXIT.refused,
+      'target-not-finite',
+    ],
+    [
+      'a scale that no float holds',
+      ['deform', 'baked.glb', '--handles', 'huge.json', '-o', 'out.glb'],
+      EXIT.refused,
+      'target-not-finite',
+    ],
     ['an empty file', ['inspect', 'empty.glb'], EXIT.input, 'file-not-glb'],
     ['a file that is cut off', ['bake', 'cut.glb', '-o', 'out.glb'], EXIT.input, 'file-truncated'],
     ['a PLY that announces more than it has', ['bake', 'short.ply', '-o', 'out.glb'], EXIT.input, 'file-truncated'],
@@ -96,7 +122,7 @@ describe('exit codes', () => {
     ['a model to embed that is not there', ['embed', 'none.glb', '-o', 'out.html'], EXIT.input, 'file-unreadable'],
     ['an OBJ to embed', ['embed', 'good.obj', '-o', 'out.html'], EXIT.input, 'file-not-glb'],
     ['a web page to embed', ['embed', 'page.glb', '-o', 'out.html'], EXIT.input, 'file-not-glb'],
-    ['a model to embed whose image is another file', ['embed', 'outside.glb', '-o', 'out.html'], EXIT.input, 'file-unsupported'],
+    ['a model to embed whose image is another file', ['embed', 'outside.glb', '-o', 'out.html'], EXIT.input, 'file-unreadable'],
     ['a model to embed without a surface', ['embed', 'bare.glb', '-o', 'out.html'], EXIT.refused, 'mesh-no-triangles'],
     ['a page in no folder', ['embed', 'course-12', '-o', 'none/out.html'], EXIT.output, 'output-unwritable'],
     ['an output in no folder', ['bake', 'good.obj', '-o', 'none/out.glb'], EXIT.output, 'output-unwritable'],
@@ -104,6 +130,7 @@ describe('exit codes', () => {
   ] as [string, string[], number, string?][])('%s', async (_, args, status, code) => {
     for (const [name, text] of Object.entries(files)) writeFileSync(bench.at(name), text);
     mkdirSync(bench.at('folder'));
+    symlinkSync('circle.glb', bench.at('circle.glb'));
     if (args.includes('baked.glb')) expect((await bench.run('bake', 'good.obj', '-o', 'baked.glb', ...QUICK)).status).toBe(0);
     const before = bench.list();
     const plain = await bench.run(...args);

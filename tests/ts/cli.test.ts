@@ -1,10 +1,10 @@
 /** The command at work, in processes of its own: what it writes holds what it was given, and is the same each time. */
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
-import { Document, Extension } from '@gltf-transform/core';
+import { Document, Extension, type WriterContext } from '@gltf-transform/core';
 import { KHRMaterialsClearcoat } from '@gltf-transform/extensions';
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { load, type Mesh } from '../../wasm/ts/index.ts';
-import { readBody, readGlb, readMesh, readPoseSpaces, writeGlb } from '../../web/assets/index.ts';
+import { checkGlb, readBody, readGlb, readMesh, readPoseSpaces, writeGlb } from '../../web/assets/index.ts';
 import { sceneNormals } from '../../web/cli/write-shape.ts';
 import { buildCommand, model, Workbench } from './support/cli.ts';
 import { boxMesh } from './support/shapes.ts';
@@ -60,7 +60,11 @@ class VendorThing extends Extension {
   override read(): this {
     return this;
   }
-  override write(): this {
+  /** A root's note that can be kept, and a node's that cannot: it points at a node by its number. */
+  override write({ jsonDoc: { json } }: WriterContext): this {
+    json.extensionsUsed?.push('VENDOR_note');
+    json.extensions = { VENDOR_note: { text: 'kept', level: 2 } };
+    for (const node of json.nodes ?? []) node.extensions = { VENDOR_note: { weight: 0.5 }, VENDOR_thing: { node: 0 } };
     return this;
   }
 }
@@ -149,7 +153,17 @@ describe('handlebody bake', () => {
   it('keeps what a GLB has: order, materials and their extensions, UVs, skin, morph targets; and says what it cannot keep', async () => {
     await writeEverything('all.glb');
     const { warnings } = await bench.json('bake', 'all.glb', '-o', 'out.glb', ...QUICK);
-    expect(warnings).toMatchObject([{ code: 'extension-lost', message: expect.stringContaining('VENDOR_thing') }]);
+    expect(warnings).toMatchObject([
+      { code: 'extension-lost', message: expect.stringContaining('VENDOR_thing') },
+      { code: 'skin-posed' },
+    ]);
+    expect(warnings[0].message).not.toContain('VENDOR_note');
+    const { json } = checkGlb(bytesOf('out.glb'));
+    expect(json.extensions).toMatchObject({ VENDOR_note: { text: 'kept', level: 2 } });
+    expect((json.nodes as { extensions?: unknown }[]).map(({ extensions }) => extensions)).toContainEqual({
+      VENDOR_note: { weight: 0.5 },
+    });
+    expect(json.extensionsUsed).toEqual(expect.arrayContaining(['VENDOR_note', 'KHR_materials_clearcoat']));
     const io = { extensions: [KHRMaterialsClearcoat] };
     const [before, after] = await Promise.all(['all.glb', 'out.glb'].map((name) => readGlb(bytesOf(name), io)));
     const facts = (document: Document) => {
@@ -409,7 +423,8 @@ describe('handlebody inspect', () => {
       triangles: BAR.triangles.length / 3,
     });
     writeFileSync(bench.at('empty.glb'), await writeGlb(new Document()));
-    expect(await bench.json('inspect', 'empty.glb')).toMatchObject({ vertices: 0, triangles: 0, components: 0 });
+    const empty = await bench.run('inspect', 'empty.glb');
+    expect([empty.status, empty.stderr]).toEqual([4, expect.stringContaining('mesh-no-triangles')]);
   });
 
   it('says that a body does not fit when the mesh was changed afterwards', async () => {

@@ -15,6 +15,9 @@ const TARGET_SIZE = 10;
 /** Made once, so that a frame allocates nothing. */
 const FROM_MODEL = { stride: TARGET_SIZE, sign: -1 } as const;
 
+/** The largest number that the positions of a mesh can hold: they are floats. */
+const FLOAT_MAX = 3.4028234663852886e38;
+
 /**
  * The deformation of a baked body by handles (paper 001, §2 and appendix): set handles, write their `targets`, `solve`, `deform`.
  *
@@ -116,7 +119,8 @@ export class Irbf {
 
   /**
    * Local/global iterations from where the last call stopped: a few in every frame keep a drag smooth, and go on converging when it
-   * rests. On bad targets it throws and the last solution stays.
+   * rests. On bad targets it throws and the last solution stays: 'target-not-finite' also where a place, or the model grown by a scale, is
+   * beyond what floats can hold.
    */
   solve(options: SolveOptions = {}): SolveReport {
     const heap = this.#heap;
@@ -124,6 +128,7 @@ export class Irbf {
     const maxIterations = options.maxIterations ?? SOLVE_DEFAULTS.maxIterations;
     const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
     const accelerate = options.accelerate ?? SOLVE_DEFAULTS.accelerate;
+    this.#checkTargets();
     const targets = heap.call((e) => e.hb_irbf_targets(irbf));
     const given = heap.f64(targets, this.#targets.length);
     given.set(this.#targets);
@@ -188,7 +193,8 @@ export class Irbf {
 
   /**
    * Writes the deformed positions, and normals if asked, of all vertices as stored (n×3), relative to `body.mesh.origin` where there is
-   * one. Allocates nothing.
+   * one. Allocates nothing. Throws 'target-not-finite' naming a vertex that the targets send beyond what floats can hold; nothing is
+   * written then.
    */
   deform(positions: TypedArray, normals?: TypedArray): void {
     const heap = this.#heap;
@@ -201,8 +207,11 @@ export class Irbf {
     }
     const rest = normals && this.#hasRestNormals ? this.#restNormals : 0;
     heap.check((e) => e.hb_irbf_deform(irbf, this.#positions, rest, normals ? this.#normals : 0));
-    positions.set(heap.f32(this.#positions, positions.length));
-    normals?.set(heap.f32(this.#normals, normals.length));
+    const [moved, turned] = [heap.f32(this.#positions, positions.length), normals && heap.f32(this.#normals, normals.length)];
+    checkHeld(moved);
+    if (turned) checkHeld(turned);
+    positions.set(moved);
+    if (turned) normals?.set(turned);
   }
 
   /** The deformation at any points of space (k×3, model units), in double precision. */
@@ -276,6 +285,23 @@ export class Irbf {
     });
   }
 
+  #checkTargets(): void {
+    const { diagonal } = this.#body.normalization;
+    for (let i = 0; i < this.#targets.length; i++) {
+      const part = i % TARGET_SIZE;
+      const target = this.#targets[i] as number;
+      const isTurn = part >= 3 && part < 7;
+      // What is no number at all the solver refuses by itself.
+      if (isTurn || !Number.isFinite(target) || Math.abs(target) * (part < 3 ? 1 : diagonal) <= FLOAT_MAX) continue;
+      const handle = Math.floor(i / TARGET_SIZE);
+      throw new HandlebodyError('target-not-finite', {
+        message: `Handle ${handle} has the ${part < 3 ? 'place' : 'scale'} ${target}, which takes the shape beyond what its numbers can hold.`,
+        remedy: 'Give targets of the size of the model: positions are floats, which end at 3.4e38.',
+        culprit: { kind: 'handle', index: handle },
+      });
+    }
+  }
+
   #checkLength(name: string, length: number): void {
     const expected = this.#body.mesh.positions.length;
     if (length === expected) return;
@@ -284,6 +310,19 @@ export class Irbf {
       remedy: 'Give x, y and z for every vertex of the baked mesh, in its order.',
     });
   }
+}
+
+/** Refuses a shape that is not finite: of that nothing can be drawn, and files cannot hold it. */
+function checkHeld(rows: Float32Array): void {
+  let sum = 0;
+  for (let i = 0; i < rows.length; i++) sum += (rows[i] as number) - (rows[i] as number);
+  if (sum === 0) return;
+  const vertex = Math.floor(rows.findIndex((x) => !Number.isFinite(x)) / 3);
+  throw new HandlebodyError('target-not-finite', {
+    message: `Vertex ${vertex} goes beyond what the numbers of a shape can hold.`,
+    remedy: 'Give targets of the size of the model: positions are floats, which end at 3.4e38.',
+    culprit: { kind: 'vertex', index: vertex },
+  });
 }
 
 /** @internal See `Handlebody.irbf`. */

@@ -9,6 +9,8 @@ import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
 export interface CheckGltfOptions {
   /** Bytes of the GLB's binary chunk; undefined when it has none. */
   readonly binLength?: number | undefined;
+  /** Bytes of every buffer, where they were fetched from wherever they lie. */
+  readonly bufferLengths?: readonly number[];
   /** Bytes of the whole file: how much data it may stand for is measured by it. */
   readonly fileLength?: number;
   /** Where the JSON and the binary chunk begin in the file, to name the byte at fault. */
@@ -72,7 +74,7 @@ export function checkGltf(value: unknown, options: CheckGltfOptions = {}): GltfJ
 
   const buffers = (lists.buffers ?? []).map((buffer, i) => {
     const length = isIndex(buffer.byteLength) ? buffer.byteLength : fail(`buffer ${i} has no length`);
-    const there = bufferBytes(buffer, i, options);
+    const there = options.bufferLengths?.[i] ?? bufferBytes(buffer, i, options);
     if (length > there) fail(`buffer ${i} should have ${length} bytes, but ${there} are there`, binStart || jsonStart);
     return length;
   });
@@ -167,7 +169,7 @@ export function checkRequiredExtensions(json: GltfJson, supported: readonly stri
       ? `The model is compressed with ${compression} (${missing}), which is not read here.`
       : `The model needs the extension ${missing}, which is not read here.`,
     remedy: compression
-      ? 'Export it without mesh compression, and compress last.'
+      ? `Export it without mesh compression${compression === 'Draco' ? ', or give the decoder: the option "draco" of readGlb' : ', and compress last'}.`
       : 'Export it without that extension, or register it.',
   });
 }

@@ -1,37 +1,34 @@
-import { type Document, GLB_BUFFER, type JSONDocument } from '@gltf-transform/core';
+import type { Document, Extension } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import { checkGlb, type GlbParts } from './check-glb.ts';
-import { checkRequiredExtensions } from './check-gltf.ts';
+import { asBytes, type Bytes } from './bytes.ts';
+import { checkMagic } from './check-glb.ts';
 import { createIo, type IoOptions } from './io.ts';
 import { type GlbMesh, meshDocument } from './mesh-document.ts';
+import { openGltf } from './open-gltf.ts';
+import { type ReadOptions, toDocument } from './to-document.ts';
 import { attachBody } from './write-body.ts';
 
-const ALWAYS = ['KHR_mesh_quantization', 'HANDLEBODY_body', 'HANDLEBODY_pose_space'];
+/** They compress again, for which they need an encoder: only for those who register them. */
+const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
 
 /**
  * Reads a GLB into a glTF-Transform document. The bytes are copied. Safe on hostile input: it gives a document or throws a
- * `HandlebodyError` ('file-not-glb', 'file-truncated', 'file-invalid', 'file-unsupported', 'mesh-too-large').
+ * `HandlebodyError` ('file-not-glb', 'file-truncated', 'file-invalid', 'file-unsupported', 'file-unreadable', 'mesh-too-large').
+ *
+ * Data compressed by meshopt is decoded, and plain from then on; so is Draco's with the option `draco`. Extensions that glTF-Transform
+ * knows are kept, and unknown ones as far as they point at nothing by number; `onWarning` is told what was decompressed or gets lost.
+ * Buffers and images outside the file come through the option `resource`; without it the first are refused, the others stay outside.
  *
  * ```ts
  * const document = await readGlb(new Uint8Array(await file.arrayBuffer()));
  * const { mesh } = readMesh(document);
  * ```
  */
-export async function readGlb(bytes: Uint8Array, options: IoOptions = {}): Promise<Document> {
-  const parts = checkGlb(bytes);
-  checkRequiredExtensions(parts.json, [...ALWAYS, ...(options.extensions ?? []).map((extension) => extension.EXTENSION_NAME)]);
-  try {
-    return await createIo(options).readJSON(resolveBuffers(parts));
-  } catch (cause) {
-    if (cause instanceof HandlebodyError) throw cause;
-    throw new HandlebodyError('file-invalid', {
-      message: `The glTF is damaged: ${cause instanceof Error ? cause.message : String(cause)}`,
-      remedy: 'Export the model again; a glTF validator says more.',
-      culprit: { kind: 'byte', index: 20 },
-      cause,
-    });
-  }
+export async function readGlb(bytes: Bytes, options: ReadOptions = {}): Promise<Document> {
+  const glb = asBytes(bytes);
+  checkMagic(glb);
+  return toDocument(await openGltf(glb, options), options);
 }
 
 export interface WriteMeshOptions extends IoOptions {
@@ -44,7 +41,8 @@ export interface WriteMeshOptions extends IoOptions {
 /**
  * Writes a document as GLB, or a mesh of typed arrays with or without what was baked for it; byte for byte the same each time.
  *
- * Of a mesh it rejects with what `meshDocument` and, with a body, `attachBody` throw.
+ * Rejects with 'file-unsupported' naming an image that was not read with the document; of a mesh with what `meshDocument` and, with a
+ * body, `attachBody` throw.
  *
  * ```ts
  * const mesh = readObj(bytes);
@@ -56,26 +54,23 @@ export function writeGlb(mesh: GlbMesh, options?: WriteMeshOptions): Promise<Uin
 export async function writeGlb(from: Document | GlbMesh, options: WriteMeshOptions = {}): Promise<Uint8Array> {
   const document = 'positions' in from ? meshDocument(from, options.name) : from;
   if (document !== from && options.body) await attachBody(document, options.body);
-  return createIo(options).writeBinary(document);
+  checkTextures(document);
+  const used = document.getRoot().listExtensionsUsed();
+  const own = used.map((extension) => extension.constructor as typeof Extension);
+  const extensions = [...own.filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME)), ...(options.extensions ?? [])];
+  return createIo({ extensions }).writeBinary(document);
 }
 
-/**
- * Buffers are copied and cut to their length: glTF-Transform checks views of the file against the end of the memory that the file lies
- * in, not of the file, and aligned numbers need an aligned start.
- */
-function resolveBuffers({ json, bin }: GlbParts): JSONDocument {
-  const resources: Record<string, Uint8Array<ArrayBuffer>> = {};
-  const buffers = ((json.buffers ?? []) as { uri?: string; byteLength: number }[]).map((buffer, i) => {
-    if (buffer.uri === undefined) {
-      if (bin) resources[GLB_BUFFER] = Uint8Array.from(bin.subarray(0, buffer.byteLength));
-      return buffer;
-    }
-    const binary = atob(buffer.uri.slice(buffer.uri.indexOf(',') + 1));
-    if (binary.length < buffer.byteLength) throw new Error(`buffer ${i} is shorter than it says`);
-    const uri = `__buffer-${i}.bin`;
-    resources[uri] = Uint8Array.from({ length: buffer.byteLength }, (_, k) => binary.charCodeAt(k));
-    return { ...buffer, uri };
+/** A GLB holds its images: one that is only a name would be neither inside nor named. */
+function checkTextures(document: Document): void {
+  const missing = document
+    .getRoot()
+    .listTextures()
+    .find((texture) => !texture.getImage());
+  if (!missing) return;
+  const name = missing.getURI() || missing.getName();
+  throw new HandlebodyError('file-unsupported', {
+    message: `The image${name ? ` "${name.slice(0, 80)}"` : ''} lies outside the model and was not read with it, so it cannot be written into a GLB.`,
+    remedy: 'Give its files along when reading (the option "resource"), or take the texture out of its materials.',
   });
-  const resolved = json.buffers === undefined ? json : { ...json, buffers };
-  return { json: resolved as unknown as JSONDocument['json'], resources };
 }

@@ -1,7 +1,9 @@
 /// <reference lib="esnext.float16" preserve="true" />
 // glTF-Transform's own declarations name Float16Array, which a reader's library may not have.
 /** GLB files to typed arrays and back, by glTF-Transform, and OBJ and PLY to typed arrays: "handlebody/gltf-transform". Knows no three.js. */
+
 export { type BodyAccessorName, BodyExtension, BodyProperty, type IBodyProperty } from './body-extension.ts';
+export type { Bytes } from './bytes.ts';
 export { checkGlb, type GlbParts } from './check-glb.ts';
 export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './check-gltf.ts';
 export type { MeshRange } from './concatenate.ts';
@@ -9,6 +11,7 @@ export type { FileErrorCode, FileErrorCodes } from './error-codes.ts';
 export type { FileMesh } from './file-mesh.ts';
 export { readGlb, type WriteMeshOptions, writeGlb } from './glb.ts';
 export type { GltfJson } from './gltf-json.ts';
+export type { GltfReadOptions, GltfWarning } from './gltf-warnings.ts';
 export { createIo, HANDLEBODY_EXTENSIONS, type IoOptions } from './io.ts';
 export { type GlbMesh, meshDocument } from './mesh-document.ts';
 export { MeshQuantization } from './mesh-quantization.ts';
@@ -16,10 +19,12 @@ export { type IPoseSpaceProperty, PoseSpaceExtension, PoseSpaceProperty } from '
 export { POSE_SPACE_VERSION, type PoseSpaceData, type PoseSpaceInput, type StoredPoseSpace } from './pose-space-schema.ts';
 export { attachPoseSpace, readPoseSpaces } from './pose-spaces.ts';
 export { readBody } from './read-body.ts';
+export { readGltf } from './read-gltf.ts';
 export { type PrimitiveRange, readMesh } from './read-mesh.ts';
 export { readObj } from './read-obj.ts';
 export { readPly } from './read-ply.ts';
 export type { SceneChoices, SceneWarning, SceneWarningCode } from './scene-choices.ts';
 export { BODY_VERSION, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE } from './schema.ts';
+export type { ReadOptions } from './to-document.ts';
 export type { Matrix } from './transform.ts';
 export { attachBody, detachBody } from './write-body.ts';

@@ -5,8 +5,8 @@ import { PoseSpaceExtension } from './pose-space-extension.ts';
 
 export interface IoOptions {
   /**
-   * glTF-Transform extensions to keep, beside our own and KHR_mesh_quantization: what is not registered is dropped. Pass
-   * `ALL_EXTENSIONS` of `@gltf-transform/extensions` to keep materials and everything else as they are.
+   * glTF-Transform extensions beside our own and KHR_mesh_quantization. `readGlb`, `readGltf` and `writeGlb` find those of
+   * `@gltf-transform/extensions` by themselves; `createIo` drops what is not registered.
    */
   readonly extensions?: readonly (typeof Extension)[];
 }

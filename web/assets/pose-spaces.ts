@@ -4,7 +4,8 @@ import { type PoseSpaceData, type PoseSpaceInput, parsePoseSpace, poseSpaceDefin
 import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 
 /**
- * Gives a mesh a pose space, in place of one that it has.
+ * Gives a mesh a pose space, in place of one that it has. A mesh made by `mesh.clone()` shares the pose space of the original, which keeps
+ * it; `cloneDocument` and `mergeDocuments` of glTF-Transform copy pose spaces with their meshes.
  *
  * Throws 'file-invalid', 'example-shape-mismatch' or 'example-not-finite' when it does not fit the mesh.
  *
@@ -19,9 +20,11 @@ import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceInput): PoseSpaceProperty {
   const definition = poseSpaceDefinition(poseSpace);
   parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) });
-  mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE)?.dispose();
+  const former = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);
   const property = document.createExtension(PoseSpaceExtension).createPoseSpace().setDefinition(definition);
   mesh.setExtension(HANDLEBODY_POSE_SPACE, property);
+  // A clone shares what its original has, and that is not its own to throw away.
+  if (former?.listParents().length === 0) former.dispose();
   return property;
 }
 

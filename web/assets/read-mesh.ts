@@ -2,6 +2,7 @@ import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
 import { MAX_VERTICES, type MeshRange, type PartMode } from './concatenate.ts';
+import { refuseInstancing } from './gpu-instancing.ts';
 import { joinScene, type ScenePart } from './join-scene.ts';
 import type { SceneChoices } from './scene-choices.ts';
 import type { PartSkin } from './skin-frame.ts';
@@ -46,6 +47,7 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
   const root = document.getRoot();
   const scene = root.getDefaultScene() ?? root.listScenes()[0];
   if (!scene) throw noScene();
+  refuseInstancing(document);
   const memo = new Memo();
   const lines = { count: 0 };
   let vertices = 0;
@@ -59,7 +61,6 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
     const { node, parent } = entry;
     if (visited.has(node)) throw circle(node);
     visited.add(node);
-    refuseInstances(node);
     const matrix = multiplyMatrices(parent, localMatrix(node));
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const mode = primitive.getMode();
@@ -170,14 +171,6 @@ function decode(accessor: Accessor, width: number): Float32Array {
   const element: number[] = [];
   for (let i = 0; i < rows.length; i += width) rows.set(accessor.getElement(i / width, element), i);
   return rows;
-}
-
-function refuseInstances(node: Node): void {
-  if (!node.getExtension('EXT_mesh_gpu_instancing')) return;
-  throw new HandlebodyError('file-unsupported', {
-    message: `The node "${node.getName()}" shows copies of its mesh by EXT_mesh_gpu_instancing, which have no vertices of their own to deform.`,
-    remedy: 'Turn the instances into meshes: "uninstance" of glTF-Transform does so.',
-  });
 }
 
 function noScene(): HandlebodyError {

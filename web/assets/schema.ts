@@ -135,6 +135,13 @@ function bodyFails(): never {
   throw bodyInvalid('does not say how its scene was read');
 }
 
+/** What a body says besides its arrays, checked: what both writers put into a file. Throws as `parseBodyHeader` does. */
+export function headerOf(body: BodyData): BodyHeader {
+  const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
+  const { reading } = body.mesh;
+  return parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles, reading });
+}
+
 /** More than these cannot be told apart. */
 const MAX_HANDLES = 1000;
 

@@ -3,13 +3,15 @@ import type { BodyData } from '../../wasm/ts/types.ts';
 import { encodeBody } from './body-codec.ts';
 import { type BodyAccessorName, BodyExtension, type BodyProperty } from './body-extension.ts';
 import { readMesh } from './read-mesh.ts';
-import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, parseBodyHeader } from './schema.ts';
+import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, headerOf } from './schema.ts';
 
 /**
  * Puts a baked body into a document, in place of one that is there. Attach it last: whatever moves, adds or reorders vertices afterwards
  * makes it worthless, and reading it then fails with 'body-mismatch'. The sphere coordinates are stored as floats, all else exactly.
  *
- * Rejects with 'body-mismatch' when the body was not baked for this document, 'body-version' or 'body-invalid' when it is of another
+ * It belongs to the document's root: `cloneDocument` of glTF-Transform copies it, `mergeDocuments` leaves it behind.
+ *
+ * Rejects with 'file-unsupported' for a document with EXT_mesh_gpu_instancing, whose copies a body cannot tell apart, with 'body-mismatch' when the body was not baked for this document, 'body-version' or 'body-invalid' when it is of another
  * format or its arrays contradict each other; the document is then as it was.
  *
  * ```ts
@@ -19,10 +21,8 @@ import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, parseBodyHeader } from './s
  * ```
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
-  const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
-  const { reading } = body.mesh;
-  const header = parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles, reading });
-  const checked = { ...body, ...header, mesh: readMesh(document, { reading: reading ?? {} }).mesh };
+  const header = headerOf(body);
+  const checked = { ...body, ...header, mesh: readMesh(document, { reading: header.reading ?? {} }).mesh };
   checkBody(checked);
   const { arrays, arraysHash } = await encodeBody(checked);
 

@@ -1,6 +1,7 @@
 /** The command line as checked values. What cannot be meant is a 'usage' error. */
 import { type ParseArgsConfig, parseArgs } from 'node:util';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { isSpecial, isStandardOutput } from './special-files.ts';
 
 export type Options = NonNullable<ParseArgsConfig['options']>;
 export type Values = Record<string, string | boolean | (string | boolean)[] | undefined>;
@@ -51,14 +52,17 @@ export function theFile(command: string, words: readonly string[], what: string)
   return file;
 }
 
-/** The output, which has to be asked for, and not by the name of a format that is not written. */
+/** Names of other formats, under which a page would not be looked for. */
+const NO_HTML = /\.(obj|ply|glb|gltf|stl|off|fbx|usdz|json)$/i;
+
+/** The output, which has to be asked for, and not by the name of a format that is not written; devices and pipes have any name. */
 export function theOutput(command: string, values: Values, format: 'glb' | 'html' = 'glb'): string {
   const output = values.output;
   if (typeof output !== 'string' || output === '') {
     throw usageError(`"handlebody ${command}" needs to know where to write.`, `Add -o and the name of a .${format} file.`);
   }
-  const [, other] = /\.(obj|ply|glb|gltf|stl|fbx|usdz|json|html)$/i.exec(output) ?? [];
-  if (other && other.toLowerCase() !== format) {
+  const fits = format === 'glb' ? /\.glb$/i.test(output) : !NO_HTML.test(output);
+  if (!fits && !isStandardOutput(output) && !isSpecial(output)) {
     const written = format.toUpperCase();
     throw usageError(`"${output}" would not be what its name says: ${written} is written.`, `Let its name end in .${format}.`);
   }

@@ -4,6 +4,7 @@ import { attachBody, readMesh } from '../assets/index.ts';
 import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
+import { readBack } from './read-back.ts';
 import type { Run } from './run.ts';
 
 const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
@@ -22,7 +23,7 @@ export const BAKE_OPTIONS: Options = {
 
 /** `handlebody bake`: a model with its interior distances in it. */
 export async function bakeCommand({ values, words, report, signal, clock }: Run): Promise<void> {
-  const input = theFile('bake', words, 'a model: a .glb, .obj or .ply file');
+  const input = theFile('bake', words, 'a model: a .glb, .gltf, .obj or .ply file');
   const options = bakeOptions(values);
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
@@ -39,6 +40,7 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   clock.lap('bake');
   await attachBody(document, body);
   const bytes = await modelBytes(document);
+  await readBack(bytes, { positionsHash: body.positionsHash });
   await writeOutput(output, bytes, signal);
   clock.lap('write');
 

@@ -11,6 +11,7 @@ import { packageVersion } from './package.ts';
 import { POSE_OPTIONS, poseCommand } from './pose.ts';
 import { Report } from './report.ts';
 import type { Run } from './run.ts';
+import { isStandardOutput } from './special-files.ts';
 
 const COMMANDS = new Map<string, { options: Options; run: (run: Run) => Promise<void> }>([
   ['bake', { options: BAKE_OPTIONS, run: bakeCommand }],
@@ -60,6 +61,7 @@ async function dispatch([name, ...args]: readonly string[], report: Report, sign
   }
   const { values, words } = parseCommandLine(name, args, command.options);
   report.quiet = values.quiet === true;
+  if (isStandardOutput(values.output)) report.leaveStandardOutput();
   await command.run({ values, words, report, signal, clock: new Clock() });
   return EXIT.ok;
 }

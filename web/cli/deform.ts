@@ -6,6 +6,7 @@ import { type Options, theFile, theOutput, usageError, WRITES } from './argument
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { parseHandles } from './handles.ts';
 import { modelBytes, naming, readModel } from './model.ts';
+import { readBack } from './read-back.ts';
 import type { Report } from './report.ts';
 import type { Run } from './run.ts';
 import { sceneNormals, writeShape } from './write-shape.ts';
@@ -49,12 +50,12 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   });
   clock.lap('prepare');
   irbf.targets.set(targets);
-  const solved = irbf.solve({ maxIterations: MAX_ITERATIONS });
+  const solved = fromHandles(handlesName, () => irbf.solve({ maxIterations: MAX_ITERATIONS }));
   clock.lap('solve');
   const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3), origin };
   const restNormals = sceneNormals(ranges);
   if (restNormals) irbf.setRestNormals(restNormals);
-  irbf.deform(shape.positions, restNormals && shape.normals);
+  fromHandles(handlesName, () => irbf.deform(shape.positions, restNormals && shape.normals));
   clock.lap('deform');
   const quality = measure(irbf, solved, report);
   clock.lap('measure');
@@ -74,6 +75,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
     'The output carries no interior distances, which are those of the shape at rest: bake it again to deform it further.',
   );
   const bytes = await modelBytes(document);
+  await readBack(bytes, { shape: true });
   await writeOutput(output, bytes, signal);
   clock.lap('write');
 
@@ -118,7 +120,7 @@ function fromHandles<T>(name: string, work: () => T): T {
     if (!(error instanceof HandlebodyError)) throw error;
     const { code, message, remedy, culprit } = error;
     const refused = code === 'invalid-option' ? new HandlebodyError('handles-invalid', { message, remedy, cause: error }) : error;
-    throw culprit?.kind === 'handle' || refused !== error ? naming(name, refused) : error;
+    throw culprit?.kind === 'handle' || code === 'target-not-finite' || refused !== error ? naming(name, refused) : error;
   }
 }
 

@@ -1,12 +1,13 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { checkGlb } from '../assets/check-glb.ts';
 import { readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
+import { openAsGlb } from '../assets/open-gltf.ts';
 import { FIGURES, type Listed } from '../figures/list.ts';
 import { type Options, theFile, theOutput, usageError, type Values, WRITES } from './arguments.ts';
 import { type Content, embedPage } from './embed-page.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
+import { filesBeside } from './files-beside.ts';
 import { formatOf, naming, readModel } from './model.ts';
 import { nearest } from './nearest.ts';
 import type { Run } from './run.ts';
@@ -66,16 +67,17 @@ function describeFigure({ listed, state }: NonNullable<ReturnType<typeof figureO
 
 async function describeModel(file: string, values: Values): Promise<Found> {
   if (values.state !== undefined) throw usageError('--state is for figures; a model has none.', 'Leave it out.');
-  const glb = await readInput(file);
-  const format = formatOf(glb, file);
-  if (format !== 'GLB') {
+  const bytes = await readInput(file);
+  const format = formatOf(bytes, file);
+  if (format !== 'GLB' && format !== 'glTF') {
     throw new HandlebodyError('file-not-glb', {
       message: `"${file}" is ${format === 'OBJ' ? 'an OBJ' : 'a PLY'} model, and pages show GLB.`,
       remedy: 'Bake it with "handlebody bake", which makes a GLB of it, and embed that.',
     });
   }
   try {
-    refuseOutside(glb);
+    // A page that works offline fetches nothing, and its elements read GLB: everything goes inside, plain.
+    const glb = await openAsGlb(bytes, { resource: filesBeside(file) });
     const { document } = await readModel(glb, file);
     const baked = (await readBody(document)) !== undefined;
     // A body is dragged, though it have a face, too.
@@ -88,15 +90,4 @@ async function describeModel(file: string, values: Values): Promise<Found> {
   } catch (error) {
     throw naming(file, error);
   }
-}
-
-/** A page that works offline fetches no picture. */
-function refuseOutside(glb: Uint8Array): void {
-  const images = (checkGlb(glb).json.images ?? []) as readonly { readonly uri?: string }[];
-  const index = images.findIndex(({ uri }) => uri !== undefined && !uri.startsWith('data:'));
-  if (index < 0) return;
-  throw new HandlebodyError('file-unsupported', {
-    message: `Image ${index} of the file lies outside it, in "${images[index]?.uri?.slice(0, 60)}".`,
-    remedy: 'Export the model as one .glb with its images inside.',
-  });
 }

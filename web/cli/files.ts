@@ -6,7 +6,9 @@ import {
   constants,
   fchmodSync,
   fsyncSync,
+  lstatSync,
   openSync,
+  readlinkSync,
   realpathSync,
   renameSync,
   rmSync,
@@ -20,6 +22,7 @@ import path from 'node:path';
 import { setImmediate } from 'node:timers/promises';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { usageError } from './arguments.ts';
+import { isStandardOutput } from './special-files.ts';
 
 /** Throws 'file-unreadable'. */
 export async function readInput(file: string): Promise<Uint8Array> {
@@ -37,8 +40,8 @@ export async function readInput(file: string): Promise<Uint8Array> {
 /** A place to write to, looked at before the work begins. */
 interface Output {
   readonly name: string;
-  /** Where symbolic links lead. */
-  readonly file: string;
+  /** Where symbolic links lead; undefined for standard output. */
+  readonly file: string | undefined;
   readonly before: Stats | undefined;
 }
 
@@ -47,6 +50,10 @@ interface Output {
  * replaced. Throws 'usage' or 'output-unwritable'.
  */
 export function prepareOutput(name: string, { inputs, force }: { inputs: readonly string[]; force: boolean }): Output {
+  if (isStandardOutput(name)) {
+    if (process.stdout.isTTY) throw unwritable(name, 'standard output is a terminal, and a model is not text');
+    return { name, file: undefined, before: undefined };
+  }
   try {
     const before = statSync(name, { throwIfNoEntry: false });
     const input = before && inputs.find((other) => isSame(before, other));
@@ -57,7 +64,8 @@ export function prepareOutput(name: string, { inputs, force }: { inputs: readonl
       );
     }
     if (before?.isDirectory()) throw unwritable(name, 'it is a folder');
-    const file = before ? realpathSync(name) : path.resolve(name);
+    // A pipe's place in /proc has no path that could be opened again.
+    const file = before ? (before.isFile() ? realpathSync(name) : path.resolve(name)) : endOfLinks(path.resolve(name));
     accessSync(before && !before.isFile() ? file : path.dirname(file), constants.W_OK);
     return { name, file, before };
   } catch (cause) {
@@ -72,10 +80,23 @@ export function prepareOutput(name: string, { inputs, force }: { inputs: readonl
 export async function writeOutput(output: Output, bytes: Uint8Array, signal: AbortSignal): Promise<void> {
   await setImmediate();
   signal.throwIfAborted();
-  replaceFile(output, bytes);
+  if (output.file === undefined) await writeStandardOutput(output.name, bytes);
+  else replaceFile({ ...output, file: output.file }, bytes);
 }
 
-function replaceFile({ name, file, before }: Output, bytes: Uint8Array): void {
+function writeStandardOutput(name: string, bytes: Uint8Array): Promise<void> {
+  return new Promise((resolve, reject) => {
+    process.stdout.write(bytes, (cause) => (cause ? reject(unwritable(name, reason(cause), cause)) : resolve()));
+  });
+}
+
+/** Where links lead that end nowhere yet: the file that is to be made. The system has refused circles before. */
+function endOfLinks(file: string): string {
+  if (!lstatSync(file, { throwIfNoEntry: false })?.isSymbolicLink()) return file;
+  return endOfLinks(path.resolve(realpathSync(path.dirname(file)), readlinkSync(file)));
+}
+
+function replaceFile({ name, file, before }: Output & { readonly file: string }, bytes: Uint8Array): void {
   // A device or a pipe has no name to take.
   if (before && !before.isFile()) {
     try {
@@ -121,7 +142,7 @@ function unwritable(name: string, why: string, cause?: unknown): HandlebodyError
 }
 
 /** The system's own words for what people meet, the error's otherwise. */
-function reason(cause: unknown): string {
+export function reason(cause: unknown): string {
   const { code, message } = cause as NodeJS.ErrnoException;
   const known: Record<string, string> = {
     ENOENT: 'there is no such file or folder',
@@ -132,6 +153,8 @@ function reason(cause: unknown): string {
     EROFS: 'its file system is read-only',
     ENOSPC: 'the disk is full',
     EFBIG: 'it is too large',
+    ELOOP: 'its links lead round in a circle',
+    EPIPE: 'its reader is gone',
     ERR_FS_FILE_TOO_LARGE: 'it has more than 2 GiB',
   };
   return known[code ?? ''] ?? message;

@@ -10,10 +10,11 @@ const EXIT_CODES = `Exit codes
   130  interrupted
 
 An error says what is wrong, what to do about it and its stable code on standard error; with --json it is { "error": { code, message,
-remedy, culprit? } } on standard output. Progress and warnings go to standard error. Output is written whole or not at all, and the
-same input gives the same bytes.`;
+remedy, culprit? } } on standard output. Progress and warnings go to standard error. Output is read back before it is put
+in place, written whole or not at all, and the same input gives the same bytes.`;
 
-const WRITING = `  -o, --output FILE    where to write; an older file is replaced, the input itself only with --force
+const WRITING = `  -o, --output FILE    where to write; an older file is replaced, the input itself only with --force; - is standard output, and
+                       what is said goes to standard error then
   -f, --force          let the output replace an input`;
 
 const COMMON = `  --json               print one JSON object on standard output
@@ -23,7 +24,7 @@ const COMMON = `  --json               print one JSON object on standard output
 export const HELP: Record<string, string> = {
   '': `Deforms shapes by scattered interpolation.
 
-  handlebody bake MODEL.(glb|obj|ply) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
+  handlebody bake MODEL.(glb|gltf|obj|ply) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
   handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb [--json]
   handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb [--json]
   handlebody inspect FILE [--json]
@@ -35,7 +36,7 @@ ${EXIT_CODES}`,
 
   bake: `Computes a model's interior distances and writes it with them: once, whatever handles it gets later.
 
-  handlebody bake MODEL.(glb|obj|ply) -o BODY.glb
+  handlebody bake MODEL.(glb|gltf|obj|ply) -o BODY.glb
 
   --centers N          how many centers the deformation may bend at (200)
   --distance METHOD    fast-marching (the default), heat, mean-value or euclidean
@@ -78,7 +79,8 @@ ${EXIT_CODES}`,
   handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb
 
   --at NAME=X,…        one number for every dimension; "handlebody inspect" lists them
-  --mesh NAME          which mesh, where several have a pose space
+  --mesh NAME          which mesh, where several have a pose space: its name, or its number from 0 as "handlebody inspect" tells it
+                       (name:2 for a mesh whose name is 2)
 ${WRITING}
 ${COMMON}
 
@@ -101,7 +103,7 @@ A figure is named as in the site's embed.html. The page holds the program, the s
 
 ${EXIT_CODES}`,
 
-  inspect: `Tells what is in a model: its surface, its baked body, its pose spaces. Any GLB, OBJ or PLY will do.
+  inspect: `Tells what is in a model: its surface, its baked body, its pose spaces. Any GLB, glTF, OBJ or PLY will do.
 
   handlebody inspect FILE
 

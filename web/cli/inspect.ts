@@ -14,7 +14,7 @@ import type { Run } from './run.ts';
 export async function inspectCommand({ words, report }: Run): Promise<void> {
   const file = theFile('inspect', words, 'a file to look at');
   const bytes = await readInput(file);
-  const { document, format } = await readModel(bytes, file, report);
+  const { document, format } = await readModel(bytes, file, report, { pictures: 'optional' });
   const surface = describeSurface(document);
   const body = await describeBodyOf(document, report);
   const poseSpaces = describePoseSpaces(document, report);
@@ -24,7 +24,7 @@ export async function inspectCommand({ words, report }: Run): Promise<void> {
 
 function describeSurface(document: Document) {
   const root = document.getRoot();
-  const mesh = meshOf(document);
+  const { mesh } = readMesh(document);
   const primitives = root.listMeshes().flatMap((each) => each.listPrimitives());
   const used = root.listExtensionsUsed().map(({ extensionName }) => extensionName);
   return {
@@ -42,16 +42,6 @@ function describeSurface(document: Document) {
     morphTargets: primitives.reduce((most, primitive) => Math.max(most, primitive.listTargets().length), 0),
     extensions: used,
   };
-}
-
-/** A scene without triangles is a mesh of none. */
-function meshOf(document: Document): Mesh {
-  try {
-    return readMesh(document).mesh;
-  } catch (error) {
-    if (!(error instanceof HandlebodyError) || error.code !== 'mesh-no-triangles') throw error;
-    return { positions: new Float32Array(), triangles: new Uint32Array() };
-  }
 }
 
 /** In the scene's units, whatever the positions are relative to. */
@@ -85,8 +75,10 @@ async function describeBodyOf(document: Document, report: Report) {
 
 function describePoseSpaces(document: Document, report: Report) {
   try {
+    const meshes = document.getRoot().listMeshes();
     return readPoseSpaces(document).map(({ mesh, dimensions, examples, version }) => ({
       mesh: mesh.getName(),
+      meshNumber: meshes.indexOf(mesh),
       version,
       targets: examples[0]?.weights.length ?? 0,
       dimensions,
@@ -137,8 +129,8 @@ function table(facts: Facts): string[] {
       ],
     );
   } else if (body) rows.push(['  for this shape', `no (${body.error})`]);
-  for (const { mesh, dimensions, examples, targets } of facts.poseSpaces) {
-    rows.push(['pose space', `of mesh "${mesh}", ${targets} morph targets`]);
+  for (const { mesh, meshNumber, dimensions, examples, targets } of facts.poseSpaces) {
+    rows.push(['pose space', `of mesh ${meshNumber}${mesh && `, "${mesh}"`}, ${targets} morph targets`]);
     for (const { name, min, max } of dimensions) rows.push([`  ${name}`, `${min} … ${max}`]);
     rows.push(['  examples', `${examples.length}`]);
     for (const { name, at } of examples) rows.push([`    ${name}`, at.map(short).join(', ')]);

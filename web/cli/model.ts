@@ -1,19 +1,13 @@
 /** Models of any format that the command reads, as glTF documents, and how they are written. */
 import path from 'node:path';
-import type { Document, Extension } from '@gltf-transform/core';
-import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
+import type { Document } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { checkGlb } from '../assets/check-glb.ts';
-import { HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, meshDocument, readGlb, readObj, readPly, writeGlb } from '../assets/index.ts';
+import { meshDocument, readGlb, readGltf, readObj, readPly, writeGlb } from '../assets/index.ts';
+import { looksLikeGltf } from '../assets/open-unusual.ts';
+import { filesBeside } from './files-beside.ts';
 import type { Report } from './report.ts';
 
-/** Those whose data glTF-Transform cannot read without a decoder. */
-const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
-
-/** Extensions that pass through unharmed. */
-const EXTENSIONS = (ALL_EXTENSIONS as (typeof Extension)[]).filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME));
-
-type ModelFormat = 'GLB' | 'OBJ' | 'PLY';
+type ModelFormat = 'GLB' | 'glTF' | 'OBJ' | 'PLY';
 
 interface Model {
   readonly document: Document;
@@ -25,22 +19,35 @@ export function formatOf(bytes: Uint8Array, name: string): ModelFormat {
   const head = String.fromCharCode(...bytes.subarray(0, 4));
   if (head === 'glTF') return 'GLB';
   if (/^ply[\r\n]/.test(head)) return 'PLY';
+  if (/\.gltf$/i.test(name) || looksLikeGltf(bytes)) return 'glTF';
   return /\.obj$/i.test(name) ? 'OBJ' : /\.ply$/i.test(name) ? 'PLY' : 'GLB';
 }
 
-/** Reads a model; `report`, where it will be written again, is warned of what will be lost. Throws 'file-*' errors that name the file. */
-export async function readModel(bytes: Uint8Array, name: string, report?: Report): Promise<Model> {
+/**
+ * Reads a model, with the files that it names and that lie beside it; `report` is warned of what was changed or gets lost. With `pictures`
+ * 'optional', for who only looks at a model, an image that is missing is a warning.
+ *
+ * Throws 'file-*' errors that name the file.
+ */
+export async function readModel(
+  bytes: Uint8Array,
+  name: string,
+  report?: Report,
+  { pictures = 'needed' }: { pictures?: 'needed' | 'optional' } = {},
+): Promise<Model> {
   const format = formatOf(bytes, name);
   try {
-    if (format !== 'GLB') {
+    if (format === 'OBJ' || format === 'PLY') {
       const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
       for (const message of mesh.warnings) report?.warn({ code: 'left-out', message });
       return { document: meshDocument(mesh, path.basename(name, path.extname(name))), format };
     }
-    if (report) warnOfLost(bytes, report);
-    const document = await readGlb(bytes, { extensions: EXTENSIONS });
-    joinBuffers(document);
-    return { document, format };
+    const onMissingPicture = pictures === 'needed' ? undefined : (error: HandlebodyError) => report?.warn(error);
+    const options = {
+      resource: filesBeside(name, onMissingPicture),
+      onWarning: (warning: { code: string; message: string; remedy: string }) => report?.warn(warning),
+    };
+    return { document: await (format === 'GLB' ? readGlb : readGltf)(bytes, options), format };
   } catch (error) {
     throw naming(name, error);
   }
@@ -48,7 +55,7 @@ export async function readModel(bytes: Uint8Array, name: string, report?: Report
 
 /** The document as GLB, byte for byte the same each time. */
 export function modelBytes(document: Document): Promise<Uint8Array> {
-  return writeGlb(document, { extensions: EXTENSIONS });
+  return writeGlb(document);
 }
 
 /** An error of reading a file, with the file's name before it. */
@@ -56,24 +63,4 @@ export function naming(name: string, error: unknown): unknown {
   if (!(error instanceof HandlebodyError) || error.message.includes(name)) return error;
   const { code, message, remedy, culprit } = error;
   return new HandlebodyError(code, { message: `"${name}": ${message}`, remedy, culprit, cause: error });
-}
-
-function warnOfLost(bytes: Uint8Array, report: Report): void {
-  const known = [...EXTENSIONS.map(({ EXTENSION_NAME }) => EXTENSION_NAME), HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE];
-  const used = (checkGlb(bytes).json.extensionsUsed ?? []) as readonly string[];
-  const lost = used.filter((name) => !known.includes(name));
-  if (lost.length === 0) return;
-  report.warn({
-    code: 'extension-lost',
-    message: `What the model says in ${lost.join(', ')} is not known here and gets lost.`,
-    remedy: 'Apply such extensions after baking, if they leave the vertices alone.',
-  });
-}
-
-/** A GLB has one buffer: what other ones hold moves into it. */
-function joinBuffers(document: Document): void {
-  const [first, ...others] = document.getRoot().listBuffers();
-  if (!first || others.length === 0) return;
-  for (const accessor of document.getRoot().listAccessors()) accessor.setBuffer(first);
-  for (const buffer of others) buffer.dispose();
 }

@@ -5,6 +5,8 @@ import { type PoseSpaceData, readPoseSpaces } from '../assets/index.ts';
 import { type Options, theFile, theOutput, usageError, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
+import { chooseByName } from './numbered.ts';
+import { readBack } from './read-back.ts';
 import type { Report } from './report.ts';
 import type { Run } from './run.ts';
 
@@ -19,7 +21,7 @@ export async function poseCommand({ values, words, report, signal, clock }: Run)
   const output = prepareOutput(theOutput('pose', values), { inputs: [input], force: values.force === true });
 
   const { document } = await readModel(await readInput(input), input, report);
-  const space = choosePoseSpace(readPoseSpaces(document), values, input);
+  const space = choosePoseSpace(document, values, input);
   const place = parsePlace(at, space);
   for (const [i, { name, min, max }] of space.dimensions.entries()) {
     const value = place[i] as number;
@@ -39,8 +41,10 @@ export async function poseCommand({ values, words, report, signal, clock }: Run)
   const weights = sumByName(poses.names, poses.weights(place));
   const targets = Array.from(poses.evaluate(place));
   clock.lap('solve');
+  checkPosed(space.mesh, targets);
   setWeights(document, space.mesh, targets, report);
   const bytes = await modelBytes(document);
+  await readBack(bytes, {});
   await writeOutput(output, bytes, signal);
   clock.lap('write');
 
@@ -60,7 +64,8 @@ export async function poseCommand({ values, words, report, signal, clock }: Run)
 
 type FoundPoseSpace = PoseSpaceData & { readonly mesh: Mesh };
 
-function choosePoseSpace(spaces: readonly FoundPoseSpace[], values: Values, input: string): FoundPoseSpace {
+function choosePoseSpace(document: Document, values: Values, input: string): FoundPoseSpace {
+  const spaces = readPoseSpaces(document);
   const [only, ...others] = spaces;
   if (!only) {
     throw new HandlebodyError('pose-space-missing', {
@@ -68,15 +73,23 @@ function choosePoseSpace(spaces: readonly FoundPoseSpace[], values: Values, inpu
       remedy: 'Use a model with the extension HANDLEBODY_pose_space, such as attachPoseSpace of "handlebody/gltf-transform" makes.',
     });
   }
-  const names = spaces.map(({ mesh }) => JSON.stringify(mesh.getName())).join(', ');
+  const meshes = document.getRoot().listMeshes();
+  const found = spaces.map((space) => ({ space, number: meshes.indexOf(space.mesh), name: space.mesh.getName() }));
+  const names = found.map(({ number, name }) => (name ? `${number} (${JSON.stringify(name)})` : `${number} (no name)`)).join(', ');
   if (values.mesh === undefined) {
     if (others.length === 0) return only;
-    throw usageError(`"${input}" has ${spaces.length} pose spaces, of the meshes ${names}.`, 'Choose one with --mesh.');
+    throw usageError(
+      `"${input}" has ${spaces.length} pose spaces, of the meshes ${names}.`,
+      'Choose one with --mesh, by name or number.',
+    );
   }
-  const named = spaces.filter(({ mesh }) => mesh.getName() === values.mesh);
-  if (named.length === 1) return named[0] as FoundPoseSpace;
-  const problem = named.length === 0 ? 'No mesh with a pose space is' : `${named.length} meshes with a pose space are`;
-  throw usageError(`${problem} called "${values.mesh}".`, `There are: ${names}.`);
+  const chosen = chooseByName(found, values.mesh as string);
+  if (chosen.length === 1) return (chosen[0] as (typeof found)[number]).space;
+  const problem = chosen.length === 0 ? 'No mesh with a pose space is' : `${chosen.length} meshes with a pose space are`;
+  throw usageError(
+    `${problem} called "${values.mesh}".`,
+    `There are: ${names}. Choose by number, such as --mesh ${found[0]?.number}.`,
+  );
 }
 
 /** "valence=0.6,arousal=0.4" as one number a dimension. */
@@ -98,6 +111,29 @@ function parsePlace(text: string, { dimensions }: PoseSpaceData): Float64Array {
   if (missing.length > 0)
     throw usageError(`--at does not say where ${missing.join(' and ')} should be.`, `Write it as --at ${example}.`);
   return place;
+}
+
+/** Weights far outside the examples may send vertices beyond what floats can hold, in whatever viewer opens the file. */
+function checkPosed(mesh: Mesh, weights: readonly number[]): void {
+  for (const primitive of mesh.listPrimitives()) {
+    const rest = primitive.getAttribute('POSITION');
+    const targets = primitive.listTargets().map((target) => target.getAttribute('POSITION'));
+    const element: number[] = [];
+    for (let v = 0; v < (rest?.getCount() ?? 0); v++) {
+      const place = [...(rest?.getElement(v, element) ?? [])];
+      for (const [k, target] of targets.entries()) {
+        const move = target?.getElement(v, element) ?? [0, 0, 0];
+        for (let axis = 0; axis < 3; axis++)
+          place[axis] = Math.fround((place[axis] as number) + (weights[k] ?? 0) * (move[axis] as number));
+      }
+      if (place.every(Number.isFinite) || !rest?.getElement(v, element).every(Number.isFinite)) continue;
+      throw new HandlebodyError('target-not-finite', {
+        message: `The pose sends vertex ${v} of the mesh "${mesh.getName()}" beyond what its numbers can hold.`,
+        remedy: 'Give a place nearer to the examples; "handlebody inspect" tells their range.',
+        culprit: { kind: 'vertex', index: v },
+      });
+    }
+  }
 }
 
 /** The mesh's weights; a node's own would hide them, and animations will. */

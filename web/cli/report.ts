@@ -23,7 +23,7 @@ export class Report {
   json = false;
   quiet = false;
   readonly warnings: Warning[] = [];
-  readonly #out: Sink;
+  #out: Sink;
   readonly #err: Sink;
   #bar = false;
   #drawn = 0;
@@ -32,6 +32,11 @@ export class Report {
   constructor(out: Sink = process.stdout, err: Sink = process.stderr) {
     this.#out = out;
     this.#err = err;
+  }
+
+  /** Standard output is for a model: what is said goes to standard error. */
+  leaveStandardOutput(): void {
+    this.#out = this.#err;
   }
 
   /** Progress of a piece of work: a bar on a terminal, a line every tenth elsewhere. */

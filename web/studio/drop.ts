@@ -1,14 +1,14 @@
 import { byId } from '../ui/dom.ts';
 
 /** Files come by the button or by being dropped anywhere on the page. */
-export function listenForFiles(take: (file: File) => void): void {
+export function listenForFiles(take: (files: readonly File[]) => void): void {
   const input = byId<HTMLInputElement>('file');
   byId('open').addEventListener('click', () => input.click());
   input.addEventListener('change', () => {
-    const file = input.files?.[0];
+    const files = [...(input.files ?? [])];
     // The same file may be chosen again.
     input.value = '';
-    if (file) take(file);
+    if (files.length > 0) take(files);
   });
 
   const veil = byId('drop-veil');
@@ -25,7 +25,11 @@ export function listenForFiles(take: (file: File) => void): void {
     if (!carriesFiles(event)) return;
     event.preventDefault();
     veil.hidden = true;
-    const file = event.dataTransfer?.files[0];
-    if (file) take(file);
+    const { items, files } = event.dataTransfer as DataTransfer;
+    // Both are gone once the event is over.
+    const [entries, given] = [[...items].map((item) => item.webkitGetAsEntry()), [...files]];
+    if (entries.some((entry) => entry?.isDirectory)) {
+      void import('./dropped-folder.ts').then(({ filesOf }) => filesOf(entries)).then(take, () => take(given));
+    } else if (given.length > 0) take(given);
   });
 }

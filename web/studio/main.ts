@@ -25,7 +25,7 @@ function start(): void {
   const studio = new Studio({ view, solver, messages, progress, note });
   const models = new ModelSwitch((id) => void studio.choose(id));
   studio.modelSwitch = models;
-  listenForFiles((file) => void studio.open(file));
+  listenForFiles((files) => void studio.open(files));
   models.show(models.fromAddress());
   void studio.choose(models.fromAddress());
 }

@@ -12,6 +12,7 @@ import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
+import { besideIt } from './beside.ts';
 import { BodyScene } from './body-scene.ts';
 import { readHandles } from './handles-json.ts';
 import type { ModelSwitch } from './model-switch.ts';
@@ -44,7 +45,7 @@ export class Studio {
   #scene: StudioScene | undefined;
   #shown = '';
   #work: AbortController | undefined;
-  #ownFile: File | undefined;
+  #ownFiles: readonly File[] = [];
   /** Of the bake that made the present scene. */
   readonly #warnings: PageError[] = [];
 
@@ -65,7 +66,7 @@ export class Studio {
       return;
     }
     if (id === OWN) {
-      if (this.#ownFile) await this.open(this.#ownFile);
+      if (this.#ownFiles.length > 0) await this.open(this.#ownFiles);
       return;
     }
     const entry = modelOf(id);
@@ -78,14 +79,17 @@ export class Studio {
     });
   }
 
-  /** Takes a file of the user's: a GLB to show, or handles for what is shown. */
-  async open(file: File): Promise<void> {
+  /** Takes files of the user's: a model to show, with what it names, or handles for what is shown. */
+  async open(files: readonly File[]): Promise<void> {
+    const file = files.find(({ name }) => /\.gl(b|tf)$/i.test(name)) ?? files[0];
+    if (!file) return;
     if (/\.json$/i.test(file.name)) return this.#takeHandles(file);
     const name = file.name.replace(/\.[^.]*$/, '') || 'Your model';
     await this.#bring(OWN, name, async (signal) => {
       this.#parts.progress.begin(`Reading ${file.name}…`, () => this.#work?.abort());
-      const scene = await this.#stage(await loadModel(await file.arrayBuffer()), name, signal);
-      this.#ownFile = file;
+      const model = await loadModel(await file.arrayBuffer(), { resource: (uri) => besideIt(uri, file, files) });
+      const scene = await this.#stage(model, name, signal);
+      this.#ownFiles = files;
       return scene;
     });
   }

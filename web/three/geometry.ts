@@ -6,7 +6,7 @@ import type { SceneChoices } from '../assets/scene-choices.ts';
 import { multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
 import { drawnRuns, isInvisible, unreadable } from './drawn-runs.ts';
-import { type Instance, indicesOf, instancesOf, isInstanced } from './instances.ts';
+import { indicesOf, instancesOf, isInstanced, type ObjectInstance } from './instances.ts';
 import { morphDisplacements } from './morphs.ts';
 import { collectNormals, isMesh, isPoints, isSkinned, type ObjectMesh, type ObjectPart } from './object-part.ts';
 import { skinOf } from './object-skin.ts';
@@ -76,7 +76,7 @@ function readParts(object: Object3D, choices: SceneChoices): ObjectMesh {
 }
 
 interface PartOptions {
-  readonly instance: Instance | undefined;
+  readonly instance: ObjectInstance | undefined;
   readonly hidden: boolean;
   readonly places: Places;
   readonly takesHidden: boolean;

@@ -15,7 +15,7 @@ import {
 } from 'three';
 import { morphOffset } from '../assets/join-scene.ts';
 import { decode } from './decode.ts';
-import type { Instance, Instanced } from './instances.ts';
+import type { Instanced, ObjectInstance } from './instances.ts';
 import type { Stand } from './live-geometry.ts';
 import { morphDisplacements } from './morphs.ts';
 import type { ObjectPart } from './object-part.ts';
@@ -33,7 +33,7 @@ interface Rows {
 export function standFor(parts: readonly ObjectPart[]): Stand {
   const [first] = parts as [ObjectPart];
   const original = first.mesh as Instanced;
-  const instances = parts.map(({ instance }) => instance as Instance);
+  const instances = parts.map(({ instance }) => instance as ObjectInstance);
   const mesh = new Mesh(joinedGeometry(original, instances), materialFor(original));
   showAs(mesh, original);
   const own = instances[0]?.weights !== undefined;
@@ -104,7 +104,7 @@ function exchange(from: Object3D, to: Object3D, parent: Object3D): void {
   from.children.length = 0;
 }
 
-function joinedGeometry(original: Instanced, instances: readonly Instance[]): BufferGeometry {
+function joinedGeometry(original: Instanced, instances: readonly ObjectInstance[]): BufferGeometry {
   const { geometry } = original;
   const joined = new BufferGeometry();
   joined.name = geometry.name;
@@ -121,7 +121,7 @@ function joinedGeometry(original: Instanced, instances: readonly Instance[]): Bu
   return joined;
 }
 
-function rowsOf(geometry: BufferGeometry, name: string, { range }: Instance): Float32Array {
+function rowsOf(geometry: BufferGeometry, name: string, { range }: ObjectInstance): Float32Array {
   const attribute = geometry.getAttribute(name);
   const rows = decode(attribute, attribute.itemSize);
   const { start, count } = range?.vertices ?? { start: 0, count: attribute.count };
@@ -129,7 +129,7 @@ function rowsOf(geometry: BufferGeometry, name: string, { range }: Instance): Fl
 }
 
 /** What has a direction or a place turns with the instance. */
-function turned(name: string, { rows, width }: Rows, instance: Instance): Float32Array {
+function turned(name: string, { rows, width }: Rows, instance: ObjectInstance): Float32Array {
   const matrix = new Matrix4().fromArray(Array.from(instance.matrix));
   const vector = new Vector3();
   const each = (turn: (vector: Vector3) => void) => {
@@ -150,7 +150,7 @@ function turned(name: string, { rows, width }: Rows, instance: Instance): Float3
 function setColors(
   joined: BufferGeometry,
   original: Instanced,
-  { instances, counts }: { instances: readonly Instance[]; counts: readonly number[] },
+  { instances, counts }: { instances: readonly ObjectInstance[]; counts: readonly number[] },
 ): void {
   if (!hasColors(original)) return;
   const stored = usesColors(original) ? (joined.getAttribute('color') as BufferAttribute | undefined) : undefined;
@@ -193,7 +193,7 @@ function materialFor(original: Instanced): Material | Material[] {
 }
 
 interface Joining {
-  readonly instances: readonly Instance[];
+  readonly instances: readonly ObjectInstance[];
   readonly starts: readonly number[];
   readonly counts: readonly number[];
 }
@@ -226,7 +226,7 @@ function setIndex(joined: BufferGeometry, geometry: BufferGeometry, { instances,
  * Morph targets of the instances: those of the mesh where all have its weights, else one that adds what each one's own weights do. Returns
  * whether there are any.
  */
-function setMorphs(mesh: ThreeMesh, original: Instanced, instances: readonly Instance[]): boolean {
+function setMorphs(mesh: ThreeMesh, original: Instanced, instances: readonly ObjectInstance[]): boolean {
   const { geometry } = original;
   const count = geometry.morphAttributes.position?.length ?? 0;
   if (count === 0 || 'isBatchedMesh' in original) return false;
@@ -260,7 +260,7 @@ function setMorphs(mesh: ThreeMesh, original: Instanced, instances: readonly Ins
 }
 
 /** Displacements, which know no place. */
-function carried(name: 'position' | 'normal', rows: Float32Array, instance: Instance): Float32Array {
+function carried(name: 'position' | 'normal', rows: Float32Array, instance: ObjectInstance): Float32Array {
   const matrix = new Matrix4().fromArray(Array.from(instance.matrix));
   const linear = name === 'position' ? new Matrix3().setFromMatrix4(matrix) : new Matrix3().getNormalMatrix(matrix);
   const vector = new Vector3();

@@ -4,7 +4,7 @@ import type { DrawnRun } from '../assets/concatenate.ts';
 import type { Matrix } from '../assets/transform.ts';
 
 /** One copy. */
-export interface Instance {
+export interface ObjectInstance {
   /** Its number in three.js' mesh. */
   readonly index: number;
   readonly visible: boolean;
@@ -23,12 +23,12 @@ export function isInstanced(mesh: Object3D): mesh is Instanced {
 }
 
 /** Undefined where this version of three.js does not tell. */
-export function instancesOf(mesh: Instanced): Instance[] | undefined {
+export function instancesOf(mesh: Instanced): ObjectInstance[] | undefined {
   if (!('isBatchedMesh' in mesh)) return copiesOf(mesh as InstancedMesh);
   return 'getGeometryRangeAt' in mesh ? batchOf(mesh as BatchedMesh) : undefined;
 }
 
-function copiesOf(mesh: InstancedMesh): Instance[] {
+function copiesOf(mesh: InstancedMesh): ObjectInstance[] {
   const own = mesh.morphTexture ? new Mesh() : undefined;
   return Array.from({ length: Math.min(mesh.count, mesh.instanceMatrix.count) }, (_, index) => {
     const matrix = new Matrix4();
@@ -41,8 +41,8 @@ function copiesOf(mesh: InstancedMesh): Instance[] {
   });
 }
 
-function batchOf(mesh: BatchedMesh): Instance[] {
-  const found: Instance[] = [];
+function batchOf(mesh: BatchedMesh): ObjectInstance[] {
+  const found: ObjectInstance[] = [];
   const matrix = new Matrix4();
   // Numbers of instances that were deleted are free, and asking for one throws.
   for (let index = 0; index < mesh.maxInstanceCount && found.length < mesh.instanceCount; index++) {
@@ -66,6 +66,9 @@ function batchOf(mesh: BatchedMesh): Instance[] {
 }
 
 /** The run of a geometry's index that an instance draws, in numbers of its own vertices; undefined where it has no index. */
-export function indicesOf({ index }: BufferGeometry, { vertices, run }: NonNullable<Instance['range']>): Uint32Array | undefined {
+export function indicesOf(
+  { index }: BufferGeometry,
+  { vertices, run }: NonNullable<ObjectInstance['range']>,
+): Uint32Array | undefined {
   return index ? Uint32Array.from({ length: run.count }, (_, i) => index.getX(run.start + i) - vertices.start) : undefined;
 }

@@ -2,7 +2,8 @@ import type { Object3D } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import { checkGlb } from '../assets/check-glb.ts';
+import type { GltfReadOptions } from '../assets/gltf-warnings.ts';
+import { openAsGlb } from '../assets/open-gltf.ts';
 import { embeddedTextures } from './embedded-textures.ts';
 import { handlebodyData, handlebodyPlugin, type LoadedPoseSpace } from './loader.ts';
 
@@ -13,12 +14,12 @@ export interface LoadedModel {
   readonly space: LoadedPoseSpace | undefined;
 }
 
-/** Checks a GLB and makes three.js objects of it. */
-export async function loadModel(buffer: ArrayBuffer): Promise<LoadedModel> {
-  checkGlb(new Uint8Array(buffer));
+/** Checks a GLB, or a .gltf with its files, compressed or not, and makes three.js objects of it. */
+export async function loadModel(buffer: ArrayBuffer, options?: GltfReadOptions): Promise<LoadedModel> {
   const loader = embeddedTextures(new GLTFLoader()).register(handlebodyPlugin);
   try {
-    const gltf = await loader.parseAsync(buffer, '');
+    const glb = await openAsGlb(new Uint8Array(buffer), options);
+    const gltf = await loader.parseAsync(glb.buffer as ArrayBuffer, '');
     const { body, poseSpaces } = handlebodyData(gltf);
     return { object: gltf.scene, body, space: poseSpaces[0] };
   } catch (cause) {

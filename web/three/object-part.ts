@@ -3,7 +3,7 @@ import type { Object3D, Points, SkinnedMesh, Mesh as ThreeMesh } from 'three';
 import type { Mesh } from '../../wasm/ts/types.ts';
 import { invertAffine, isIdentity, type Matrix, type Sixteen } from '../assets/transform.ts';
 import { decode } from './decode.ts';
-import type { Instance } from './instances.ts';
+import type { ObjectInstance } from './instances.ts';
 
 /** A three.js mesh, or one of its instances, and its vertices' place in the joined mesh. */
 export interface ObjectPart {
@@ -18,7 +18,7 @@ export interface ObjectPart {
   /** The weights of morph targets that are in the joined mesh, if any. */
   readonly weights?: readonly number[] | undefined;
   /** Of an InstancedMesh or a BatchedMesh: which copy, and from the mesh's space to the object's. */
-  readonly instance?: (Instance & { readonly meshMatrix: Matrix }) | undefined;
+  readonly instance?: (ObjectInstance & { readonly meshMatrix: Matrix }) | undefined;
 }
 
 /** The joined mesh of an object, and where its parts are. */
@@ -30,7 +30,7 @@ export interface ObjectMesh {
 }
 
 /** Normals of a part's own, n×3; `meshFromObject` brings those of morphed shapes and of instances. */
-export type NormalsOf = (part: ObjectPart) => Float32Array;
+type NormalsOf = (part: ObjectPart) => Float32Array;
 
 const STORED: NormalsOf = ({ mesh }) => decode(mesh.geometry.getAttribute('normal'));
 
