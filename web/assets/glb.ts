@@ -58,7 +58,18 @@ export async function writeGlb(from: Document | GlbMesh, options: WriteMeshOptio
   const used = document.getRoot().listExtensionsUsed();
   const own = used.map((extension) => extension.constructor as typeof Extension);
   const extensions = [...own.filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME)), ...(options.extensions ?? [])];
-  return createIo({ extensions }).writeBinary(document);
+  const io = createIo({ extensions });
+  // glTF-Transform would write the fractions that normalized numbers mean as if they were the numbers.
+  const sparse = document
+    .getRoot()
+    .listAccessors()
+    .filter((accessor) => accessor.getSparse() && accessor.getNormalized());
+  for (const accessor of sparse) accessor.setSparse(false);
+  try {
+    return await io.writeBinary(document);
+  } finally {
+    for (const accessor of sparse) accessor.setSparse(true);
+  }
 }
 
 /** A GLB holds its images: one that is only a name would be neither inside nor named. */

@@ -25,11 +25,12 @@ function parseGltf(bytes: Uint8Array): unknown {
   try {
     return JSON.parse(text);
   } catch (cause) {
-    const cut = /end of JSON|Unterminated|end of data/i.test(String(cause));
+    const position = Number(/position (\d+)/.exec(String(cause))?.[1] ?? Number.NaN);
+    const cut = position >= text.trimEnd().length || /end of (JSON|data)|Unterminated/i.test(String(cause));
     throw new HandlebodyError(cut ? 'file-truncated' : 'file-invalid', {
       message: `The glTF ${cut ? 'is cut off' : 'is no JSON'}: ${cause instanceof Error ? cause.message : String(cause)}.`,
       remedy: cut ? 'Download or export it again.' : 'Export the model again; a glTF validator says more.',
-      culprit: { kind: 'byte', index: Number(/position (\d+)/.exec(String(cause))?.[1] ?? 0) },
+      culprit: { kind: 'byte', index: position || 0 },
       cause,
     });
   }

@@ -3,6 +3,7 @@ import { type Document, type Extension, GLB_BUFFER, type JSONDocument } from '@g
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { GlbParts } from './check-glb.ts';
 import { checkRequiredExtensions } from './check-gltf.ts';
+import type { GltfJson } from './gltf-json.ts';
 import { decompressed, type GltfReadOptions } from './gltf-warnings.ts';
 import { createIo, type IoOptions } from './io.ts';
 import { keepUnknown } from './kept-extension.ts';
@@ -78,5 +79,19 @@ function needsDraco({ json }: GlbParts): boolean {
 function withResources({ json, bin }: GlbParts): JSONDocument {
   const [buffer] = (json.buffers ?? []) as { byteLength: number }[];
   const resources = buffer && bin ? { [GLB_BUFFER]: Uint8Array.from(bin.subarray(0, buffer.byteLength)) } : {};
-  return { json: json as unknown as JSONDocument['json'], resources };
+  return { json: withOffsets(json) as unknown as JSONDocument['json'], resources };
+}
+
+/** glTF-Transform takes the accessor's own offset for those of its sparse parts, where they give none. */
+function withOffsets(json: GltfJson): GltfJson {
+  const accessors = json.accessors as { sparse?: { indices: object; values: object } }[] | undefined;
+  if (!accessors?.some(({ sparse }) => sparse)) return json;
+  const from = (part: object) => ({ byteOffset: 0, ...part });
+  return {
+    ...json,
+    accessors: accessors.map((accessor) => {
+      const { sparse } = accessor;
+      return sparse ? { ...accessor, sparse: { ...sparse, indices: from(sparse.indices), values: from(sparse.values) } } : accessor;
+    }),
+  };
 }
