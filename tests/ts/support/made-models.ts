@@ -135,4 +135,69 @@ export const FEATURES: Readonly<Record<string, (seed: number) => MadeModel>> = {
     const { indices: _, ...rest } = sheet(seed, { mode: 0 });
     return one(seed, rest);
   },
+  'morph targets with weights, of the node': (seed) => morphed(seed, 'node'),
+  'morph targets with weights, of the mesh': (seed) => morphed(seed, 'mesh'),
+  'a skin whose joints agree': (seed) => skinned(seed, 'agreeing'),
+  'a skin in a pose': (seed) => skinned(seed, 'posed'),
+  'a skin whose joints hang in another order, under a scale': (seed) => skinned(seed, 'posed', [100, 100, 100]),
+  'a skin with morph targets': (seed) => skinned(seed, 'posed', [1, 1, 1], true),
 };
+
+const rowOf = (seed: number, scale: number) => vec3(Float32Array.from(random(seed).numbers(3 * COLUMNS * ROWS), (x) => scale * x));
+
+/** Two targets, quantized in every second one. */
+function morphed(seed: number, where: 'node' | 'mesh'): MadeModel {
+  const targets = [
+    { POSITION: rowOf(seed + 5, 1) },
+    {
+      POSITION: vec3(
+        Int8Array.from(random(seed + 6).numbers(3 * COLUMNS * ROWS), (x) => 127 * x),
+        seed % 2 === 0,
+      ),
+    },
+  ];
+  const weights = random(seed + 7).numbers(2);
+  const { nodes, roots } = one(seed, sheet(seed), { ...turned(seed + 77), ...(where === 'node' && { weights }) });
+  return {
+    meshes: [{ primitives: [{ ...sheet(seed), targets }], ...(where === 'mesh' && { weights }) }],
+    ...{ nodes, roots },
+  };
+}
+
+/** Three joints of which the second in the list hangs above the others; where they agree, each is placed by its inverse bind matrix. */
+function skinned(seed: number, pose: 'agreeing' | 'posed', scale = [1, 1, 1], morphs = false): MadeModel {
+  const { numbers } = random(seed + 9);
+  const count = COLUMNS * ROWS;
+  const places = [numbers(3), numbers(3), numbers(3)] as [number[], number[], number[]];
+  const up = places[1];
+  // A joint's place in the armature, taken back by its inverse bind matrix; the pose is one of translations then.
+  const back = [0, 1, 2].map((k) => places[k]?.map((x, axis) => -(x + (k === 1 ? 0 : (up[axis] as number)))) as number[]);
+  const moved = pose === 'posed' ? 0.7 : 0;
+  const inverse = back.flatMap((row, k) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...row.map((x) => x + k * moved), 1]);
+  const primitive = sheet(seed);
+  const skinnedSheet: MadePrimitive = {
+    ...primitive,
+    ...(morphs && { targets: [{ POSITION: rowOf(seed + 4, 0.3) }] }),
+    attributes: {
+      ...primitive.attributes,
+      JOINTS_0: { array: Uint8Array.from({ length: 4 * count }, (_, i) => [0, 1, 2, 0][i % 4] as number), type: 'VEC4' },
+      WEIGHTS_0: {
+        array: Uint8Array.from({ length: 4 * count }, (_, i) => [100, 100, 55, 0][i % 4] as number),
+        type: 'VEC4',
+        normalized: true,
+      },
+    },
+  };
+  return {
+    meshes: [{ primitives: [skinnedSheet], ...(morphs && { weights: [0.6] }) }],
+    nodes: [
+      { mesh: 0, skin: 0, ...turned(seed + 3) },
+      { translation: places[0] },
+      { translation: up, children: [1, 3] },
+      { translation: places[2] },
+      { ...turned(seed + 4, scale), children: [2] },
+    ],
+    roots: [0, 4],
+    skins: [{ joints: [1, 2, 3], inverseBindMatrices: { array: Float32Array.from(inverse), type: 'MAT4' } }],
+  };
+}
