@@ -15,6 +15,9 @@ const COMMON: Options = {
 /** And those that write a file. */
 export const WRITES: Options = { output: { type: 'string', short: 'o' }, force: { type: 'boolean', short: 'f' } };
 
+/** And those that read a model of any format. */
+export const READS: Options = { strict: { type: 'boolean' } };
+
 export function usageError(message: string, remedy: string): HandlebodyError {
   return new HandlebodyError('usage', { message, remedy });
 }
@@ -57,7 +60,7 @@ export function theOutput(command: string, values: Values, format: 'glb' | 'html
   if (typeof output !== 'string' || output === '') {
     throw usageError(`"handlebody ${command}" needs to know where to write.`, `Add -o and the name of a .${format} file.`);
   }
-  const [, other] = /\.(obj|ply|glb|gltf|stl|fbx|usdz|json|html)$/i.exec(output) ?? [];
+  const [, other] = /\.(obj|ply|glb|gltf|stl|off|fbx|usdz|json|html)$/i.exec(output) ?? [];
   if (other && other.toLowerCase() !== format) {
     const written = format.toUpperCase();
     throw usageError(`"${output}" would not be what its name says: ${written} is written.`, `Let its name end in .${format}.`);

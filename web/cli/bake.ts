@@ -1,7 +1,7 @@
 import { load } from '../../wasm/ts/index.ts';
 import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
 import { attachBody, readMesh } from '../assets/index.ts';
-import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
+import { count, type Options, oneOf, READS, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
 import type { Run } from './run.ts';
@@ -10,6 +10,7 @@ const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const sa
 const PACKINGS = ['skeleton', 'tree'] as const;
 
 export const BAKE_OPTIONS: Options = {
+  ...READS,
   ...WRITES,
   centers: { type: 'string' },
   distance: { type: 'string' },
@@ -20,11 +21,11 @@ export const BAKE_OPTIONS: Options = {
 
 /** `handlebody bake`: a model with its interior distances in it. */
 export async function bakeCommand({ values, words, report, signal, clock }: Run): Promise<void> {
-  const input = theFile('bake', words, 'a model: a .glb, .obj or .ply file');
+  const input = theFile('bake', words, 'a model: a .glb, .obj, .ply, .stl or .off file');
   const options = bakeOptions(values);
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
-  const { document, format } = await readModel(await readInput(input), input, report);
+  const { document, format } = await readModel(await readInput(input), input, report, { strict: values.strict === true });
   const { mesh } = readMesh(document);
   clock.lap('read');
   const hb = await load({ signal });

@@ -2,12 +2,13 @@ import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkGlb } from '../assets/check-glb.ts';
+import { fileFormat } from '../assets/file-format.ts';
 import { readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
 import { FIGURES, type Listed } from '../figures/list.ts';
 import { type Options, theFile, theOutput, usageError, type Values, WRITES } from './arguments.ts';
 import { type Content, embedPage } from './embed-page.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
-import { formatOf, naming, readModel } from './model.ts';
+import { naming, readModel } from './model.ts';
 import { nearest } from './nearest.ts';
 import type { Run } from './run.ts';
 
@@ -67,10 +68,10 @@ function describeFigure({ listed, state }: NonNullable<ReturnType<typeof figureO
 async function describeModel(file: string, values: Values): Promise<Found> {
   if (values.state !== undefined) throw usageError('--state is for figures; a model has none.', 'Leave it out.');
   const glb = await readInput(file);
-  const format = formatOf(glb, file);
+  const format = fileFormat(glb, file);
   if (format !== 'GLB') {
     throw new HandlebodyError('file-not-glb', {
-      message: `"${file}" is ${format === 'OBJ' ? 'an OBJ' : 'a PLY'} model, and pages show GLB.`,
+      message: `"${file}" is ${format === 'PLY' ? 'a' : 'an'} ${format} model, and pages show GLB.`,
       remedy: 'Bake it with "handlebody bake", which makes a GLB of it, and embed that.',
     });
   }

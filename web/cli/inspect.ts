@@ -11,10 +11,10 @@ import type { Report } from './report.ts';
 import type { Run } from './run.ts';
 
 /** `handlebody inspect`: what is in a file. */
-export async function inspectCommand({ words, report }: Run): Promise<void> {
+export async function inspectCommand({ values, words, report }: Run): Promise<void> {
   const file = theFile('inspect', words, 'a file to look at');
   const bytes = await readInput(file);
-  const { document, format } = await readModel(bytes, file, report);
+  const { document, format } = await readModel(bytes, file, report, { strict: values.strict === true });
   const surface = describeSurface(document);
   const body = await describeBodyOf(document, report);
   const poseSpaces = describePoseSpaces(document, report);
@@ -31,7 +31,7 @@ function describeSurface(document: Document) {
     vertices: mesh.positions.length / 3,
     triangles: mesh.triangles.length / 3,
     components: countComponents(mesh.positions, mesh.triangles),
-    bounds: boundsOf(mesh.positions),
+    bounds: boundsOf(mesh),
     nodes: root.listNodes().length,
     meshes: root.listMeshes().map((each) => each.getName()),
     materials: root.listMaterials().map((each) => each.getName()),
@@ -53,14 +53,26 @@ function meshOf(document: Document): Mesh {
   }
 }
 
-function boundsOf(positions: ArrayLike<number>): { low: number[]; high: number[] } | undefined {
+/** The box of what triangles use; of a cloud, of all. Throws 'mesh-not-finite': a box of other things than numbers is none. */
+function boundsOf({ positions, triangles }: Mesh): { low: number[]; high: number[] } | undefined {
   if (positions.length === 0) return undefined;
   const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
-  for (let i = 0; i < positions.length; i++) {
-    const [axis, x] = [i % 3, positions[i] as number];
-    low[axis] = Math.min(low[axis] as number, x);
-    high[axis] = Math.max(high[axis] as number, x);
-  }
+  const widen = (vertex: number) => {
+    for (let axis = 0; axis < 3; axis++) {
+      const x = positions[3 * vertex + axis] as number;
+      if (!Number.isFinite(x)) {
+        throw new HandlebodyError('mesh-not-finite', {
+          message: `Vertex ${vertex} has a coordinate that is ${x}.`,
+          remedy: 'Export the model again; a glTF validator says more.',
+          culprit: { kind: 'vertex', index: vertex },
+        });
+      }
+      low[axis] = Math.min(low[axis] as number, x);
+      high[axis] = Math.max(high[axis] as number, x);
+    }
+  };
+  if (triangles && triangles.length > 0) for (let i = 0; i < triangles.length; i++) widen(triangles[i] as number);
+  else for (let vertex = 0; vertex < positions.length / 3; vertex++) widen(vertex);
   return { low, high };
 }
 

@@ -4,7 +4,19 @@ import type { Document, Extension } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkGlb } from '../assets/check-glb.ts';
-import { HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, meshDocument, readGlb, readObj, readPly, writeGlb } from '../assets/index.ts';
+import { type FileFormat, fileFormat } from '../assets/file-format.ts';
+import {
+  HANDLEBODY_BODY,
+  HANDLEBODY_POSE_SPACE,
+  meshDocument,
+  type ReadOptions,
+  readGlb,
+  readObj,
+  readOff,
+  readPly,
+  readStl,
+  writeGlb,
+} from '../assets/index.ts';
 import type { Report } from './report.ts';
 
 /** Those whose data glTF-Transform cannot read without a decoder. */
@@ -13,28 +25,21 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
 /** Extensions that pass through unharmed. */
 const EXTENSIONS = (ALL_EXTENSIONS as (typeof Extension)[]).filter(({ EXTENSION_NAME }) => !COMPRESSIONS.includes(EXTENSION_NAME));
 
-type ModelFormat = 'GLB' | 'OBJ' | 'PLY';
-
 interface Model {
   readonly document: Document;
-  readonly format: ModelFormat;
+  readonly format: FileFormat;
 }
 
-/** By its first bytes, or by its name for OBJ, which has no mark. */
-export function formatOf(bytes: Uint8Array, name: string): ModelFormat {
-  const head = String.fromCharCode(...bytes.subarray(0, 4));
-  if (head === 'glTF') return 'GLB';
-  if (/^ply[\r\n]/.test(head)) return 'PLY';
-  return /\.obj$/i.test(name) ? 'OBJ' : /\.ply$/i.test(name) ? 'PLY' : 'GLB';
-}
+/** Readers of the formats that hold a mesh and nothing else. */
+const MESH_READERS = { OBJ: readObj, PLY: readPly, STL: readStl, OFF: readOff };
 
 /** Reads a model; `report`, where it will be written again, is warned of what will be lost. Throws 'file-*' errors that name the file. */
-export async function readModel(bytes: Uint8Array, name: string, report?: Report): Promise<Model> {
-  const format = formatOf(bytes, name);
+export async function readModel(bytes: Uint8Array, name: string, report?: Report, options?: ReadOptions): Promise<Model> {
+  const format = fileFormat(bytes, name);
   try {
     if (format !== 'GLB') {
-      const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
-      for (const message of mesh.warnings) report?.warn({ code: 'left-out', message });
+      const mesh = MESH_READERS[format](bytes, options);
+      for (const { code, message, remedy } of mesh.warnings) report?.warn({ code, message, remedy });
       return { document: meshDocument(mesh, path.basename(name, path.extname(name))), format };
     }
     if (report) warnOfLost(bytes, report);
