@@ -97,11 +97,6 @@ const KINDS = {
   },
   /** Bytes behind what the file announces. */
   'data-left-over': { says: (n) => `${many(n, 'byte')} behind the end of the mesh passed over.`, remedy: EXPORT },
-  /** A text that does not end as its format does. */
-  'end-missing': {
-    says: () => 'The last line of the format is missing: the file may have been cut off.',
-    remedy: 'Compare it with its source.',
-  },
   /** A text that does not begin as its format does. */
   'keyword-missing': { says: () => 'The format’s name at the file’s beginning is missing.', remedy: EXPORT },
 } as const satisfies Record<string, Kind>;

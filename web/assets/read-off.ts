@@ -2,7 +2,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkCounts, type FileMesh, finishNormals, makeSurface } from './file-mesh.ts';
 import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
-import { lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
+import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -13,13 +13,13 @@ const KEYWORD = /^((?:ST|C|N|4|n)*)OFF$/;
 /**
  * Reads an OFF as text, with or without colors (COFF), normals (NOFF) and texture coordinates (STOFF) of its vertices; the numbers of
  * vertices and faces may stand on the first line or behind it. Polygons become triangles, concave ones by ear clipping; a file without faces
- * is a cloud of points. Colors are left out, with a warning.
+ * is a cloud of points. Colors are left out, with a warning. Of vertices with four coordinates (4OFF) the first three are divided by the
+ * last.
  *
  * What does not matter for the surface is passed over, with one warning for each kind (`FileWarning`): a missing "OFF" at the beginning,
  * faces of two corners, lines behind the last face, bad vertices that no face uses. With `strict` it is refused. Text may be UTF-8 or UTF-16.
  *
- * Throws 'file-invalid' naming the line, 'file-truncated', 'file-unsupported' for binary files and for vertices of another dimension than 3
- * (4OFF, nOFF), 'mesh-too-large' or 'file-not-bytes'. Safe on hostile input: it takes memory by what the file's lines hold.
+ * Throws 'file-invalid' naming the line, 'file-truncated', 'file-unsupported' for binary files and for vertices of any dimension (nOFF), 'mesh-too-large' or 'file-not-bytes'. Safe on hostile input: it takes memory by what the file's lines hold.
  *
  * ```ts
  * const { positions, triangles } = readOff(await file.arrayBuffer());
@@ -37,12 +37,14 @@ export function readOff(given: FileBytes, options: ReadOptions = {}): FileMesh {
   const positions = new NumberList(new Float64Array());
   const normals = kind.includes('N') ? new NumberList(new Float32Array()) : undefined;
   const uvs = kind.includes('ST') ? new NumberList(new Float32Array()) : undefined;
-  const read = 3 + (normals ? 3 : 0) + (uvs ? 2 : 0);
+  const size = kind.includes('4') ? 4 : 3;
+  const read = size + (normals ? 3 : 0) + (uvs ? 2 : 0);
   const lines = new NumberList(new Uint32Array());
   for (let vertex = 0; vertex < vertices; vertex++) {
     const words = rows.take(read, `vertex ${vertex}`);
-    for (let k = 0; k < 3; k++) positions.push(parseDecimal(words[k]));
-    for (let k = 3; normals && k < 6; k++) normals.push(parseDecimal(words[k]));
+    const weight = size === 4 ? parseDecimal(words[3]) : 1;
+    for (let k = 0; k < 3; k++) positions.push(heldByFloat(parseDecimal(words[k]) / weight));
+    for (let k = size; normals && k < size + 3; k++) normals.push(parseDecimal(words[k]));
     // Behind colors, which may have three numbers or four.
     for (let k = words.length - 2; uvs && k < words.length; k++) uvs.push(parseDecimal(words[k]));
     lines.push(rows.line);
@@ -175,9 +177,9 @@ function readKeyword(rows: Rows, passed: PassedOver): string {
   }
   rows.words.shift();
   const isBinary = rows.words[0]?.toUpperCase() === 'BINARY';
-  if (!(isBinary || /[4n]/.test(letters))) return letters;
+  if (!(isBinary || letters.includes('n'))) return letters;
   throw new HandlebodyError('file-unsupported', {
-    message: `The file is ${isBinary ? 'a binary OFF' : `of the kind ${letters}OFF, whose vertices have not three coordinates`}; OFF, COFF, NOFF and STOFF are read, as text.`,
+    message: `The file is ${isBinary ? 'a binary OFF' : `of the kind ${letters}OFF, whose vertices have any number of coordinates`}; OFF, COFF, NOFF, STOFF and 4OFF are read, as text.`,
     remedy: 'Export the model as a plain OFF, PLY or GLB.',
   });
 }

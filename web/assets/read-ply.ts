@@ -4,7 +4,7 @@ import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
 import { type PlyElement, type PlyHeader, type PlyProperty, type PlyType, parsePlyHeader } from './ply-header.ts';
 import { listLength, type PlyRows, plyRows, skipElement } from './ply-rows.ts';
-import { quote, type TextSource } from './text-lines.ts';
+import { heldByFloat, quote, type TextSource } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -124,7 +124,7 @@ function allocateVertices({ count, properties }: PlyElement): Vertices {
   return { positions, normals, uvs, targets };
 }
 
-function readVertices(rows: PlyRows, { count, properties }: PlyElement, { positions, targets }: Vertices): void {
+function readVertices(rows: PlyRows, { count, properties }: PlyElement, { targets }: Vertices): void {
   for (let vertex = 0; vertex < count; vertex++) {
     rows.begin(`vertex ${vertex}`);
     for (let i = 0; i < properties.length; i++) {
@@ -135,8 +135,7 @@ function readVertices(rows: PlyRows, { count, properties }: PlyElement, { positi
         continue;
       }
       const value = rows.read(type);
-      const isHeld = target.array !== positions || Number.isFinite(Math.fround(value));
-      target.array[vertex * target.width + target.offset] = isHeld ? value : Number.NaN;
+      target.array[vertex * target.width + target.offset] = heldByFloat(value);
     }
     rows.end();
   }
@@ -150,8 +149,7 @@ function badVertex(source: TextSource, header: PlyHeader, element: PlyElement, v
   rows.begin(`vertex ${vertex}`);
   for (const { name, type, lengthType } of element.properties) {
     if (lengthType || !POSITION_NAMES.includes(name)) rows.skip(type, lengthType ? listLength(rows, lengthType) : 1);
-    else if (!Number.isFinite(Math.fround(rows.read(type))))
-      return rows.fail(`has no finite number for ${name} of vertex ${vertex}`);
+    else if (Number.isNaN(heldByFloat(rows.read(type)))) return rows.fail(`has no finite number for ${name} of vertex ${vertex}`);
   }
   return rows.fail(`has no place for vertex ${vertex}`);
 }

@@ -2,7 +2,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkCounts, type FileMesh, makeSurface } from './file-mesh.ts';
 import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
-import { lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
+import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -27,7 +27,7 @@ interface Corners {
  * in the two bytes behind a triangle.
  *
  * What does not matter for the surface is passed over, with one warning for each kind (`FileWarning`): unknown lines, loops of two corners,
- * a missing `endsolid`, bytes behind the last triangle. With `strict` it is refused. Text may be UTF-8 or UTF-16.
+ * facets outside of a solid, bytes behind the last triangle. With `strict` it is refused. Text may be UTF-8 or UTF-16.
  *
  * Throws 'file-invalid' naming the line or the byte, 'file-truncated', 'mesh-too-large' or 'file-not-bytes'. Safe on hostile input: what a
  * binary file announces is checked against its length before anything is allocated.
@@ -100,8 +100,7 @@ function readBinary(bytes: Uint8Array, { positions, sizes, passed }: Corners): B
   const view = viewOf(bytes);
   for (let start = START; start < end; start += ROW) {
     for (let i = 0; i < 9; i++) {
-      const value = view.getFloat32(start + FIRST_CORNER + 4 * i, true);
-      positions.push(Number.isFinite(value) ? value : Number.NaN);
+      positions.push(heldByFloat(view.getFloat32(start + FIRST_CORNER + 4 * i, true)));
     }
     sizes.push(3);
     if (view.getUint16(start + REST, true) !== 0) passed.note('attributes-left-out', () => fail(start + REST, 'has a color'));
@@ -118,7 +117,7 @@ function readText(source: TextSource, { positions, sizes, passed }: Corners): Ba
   const lines = new NumberList(new Uint32Array());
   const fail = (line: number, what: string) => lineError(source, line, { format: FORMAT, what });
   // Corners of the loop that is being read; −1 outside.
-  let [loop, hasEnded, last] = [-1, true, 1];
+  let [loop, isOpen, last] = [-1, false, 1];
   const closeLoop = () => {
     const [size, line] = [loop, last];
     loop = -1;
@@ -143,13 +142,14 @@ function readText(source: TextSource, { positions, sizes, passed }: Corners): Ba
         i += 3;
       } else if (word === 'facet') {
         closeLoop();
-        hasEnded = false;
+        if (!isOpen) passed.note('keyword-missing', () => fail(number, 'begins a facet outside of any solid'));
         // The normal is passed over, whatever its numbers are.
         if (words[i + 1]?.toLowerCase() === 'normal') i += 4;
       } else if (word === 'outer' || word === 'loop' || word === '') continue;
       else if (word === 'endloop' || word === 'endfacet') closeLoop();
       else if (word === 'solid' || word === 'endsolid') {
-        hasEnded = word === 'endsolid';
+        closeLoop();
+        isOpen = word === 'solid';
         // What follows is a name, of whatever words; some files have all on one line.
         const facet = words.findIndex((each, at) => at > i && each.toLowerCase() === 'facet');
         i = facet === -1 ? words.length : facet - 1;
@@ -159,13 +159,12 @@ function readText(source: TextSource, { positions, sizes, passed }: Corners): Ba
       }
     }
   }
-  if (loop !== -1) {
+  if (loop !== -1 || isOpen) {
     throw new HandlebodyError('file-truncated', {
-      message: 'The STL file ends within a facet.',
-      remedy: 'Download or export it again.',
+      message: `The STL file ends within a ${loop === -1 ? 'solid' : 'facet'}.`,
+      remedy: 'Download or export it again; where only its last line is missing, add "endsolid".',
       culprit: { kind: 'byte', index: source.byteOf(source.bytes.length) },
     });
   }
-  if (!hasEnded) passed.note('end-missing', () => fail(last, 'is the last, and no "endsolid"'));
   return (vertex) => fail(lines.at(vertex), 'has a vertex without three finite numbers');
 }

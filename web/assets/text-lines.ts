@@ -80,6 +80,11 @@ const NUMBER = /^[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?$/;
 /** A decimal number, or NaN: unlike `Number`, which also takes '', '0x10' and 'Infinity'. Too large for a float is NaN as well. */
 export function parseDecimal(token: string | undefined): number {
   const value = token !== undefined && NUMBER.test(token) ? Number(token) : Number.NaN;
+  return heldByFloat(value);
+}
+
+/** The number, or NaN where a float cannot hold it. */
+export function heldByFloat(value: number): number {
   return Number.isFinite(Math.fround(value)) ? value : Number.NaN;
 }
 
