@@ -119,7 +119,8 @@ class Rows {
       return true;
     }
     for (let line = this.#lines.next(); !line.done; line = this.#lines.next()) {
-      const comment = line.value.text.indexOf('#');
+      // Within a word it begins no comment: "1.#IND" is a number that is none.
+      const comment = line.value.text.search(/(?<!\S)#/);
       const text = (comment === -1 ? line.value.text : line.value.text.slice(0, comment)).trim();
       if (text === '') continue;
       this.line = line.value.number;
