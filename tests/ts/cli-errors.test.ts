@@ -31,7 +31,7 @@ function container(json: object): Uint8Array {
 
 const files: Record<string, string | Uint8Array> = {
   'good.obj': OBJ(),
-  'damaged.obj': OBJ('v 1 2'),
+  'damaged.obj': OBJ('f 1 2 99'),
   'open.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\n',
   'page.glb': '<!DOCTYPE html><html></html>',
   'text.gltf': '{"asset": {"version": "2.0"}}',
