@@ -41,7 +41,7 @@ export const LAYERS = {
   'wasm/core/posespace': { may: [...FLOOR_1, ...FLOOR_2] },
   'wasm/abi': { may: CORE },
   'wasm/ts': { may: [], packages: [], never: ['three', GLTF], globals: ['document', 'window'] },
-  'web/assets': { may: ['wasm/ts'], packages: [GLTF], lazy: ['meshoptimizer'], never: ['three'] },
+  'web/assets': { may: ['wasm/ts'], packages: [GLTF, 'earcut'], lazy: ['meshoptimizer'], never: ['three'] },
   'web/models': { may: ['wasm/ts'], packages: ['delaunator', 'd3-contour'], never: ['three', GLTF] },
   'web/three': { may: ['wasm/ts', 'web/assets', 'web/ui'], packages: ['three'], never: [GLTF] },
   'web/worker': { may: ['wasm/ts', 'web/assets', 'web/models', 'web/three'], packages: [GLTF], never: [] },

@@ -23,6 +23,11 @@ const OBJ = "'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nv 0 0 1\\nf 1 3 2\\nf 1 2 4\\nf 2 3 
 const PLY =
   "'ply\\nformat ascii 1.0\\nelement vertex 4\\nproperty float x\\nproperty float y\\nproperty float z\\nelement face 4\\nproperty list uchar int vertex_indices\\nend_header\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 2 0 3\\n'";
 
+const OFF = "'OFF 4 4 6\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 2 0 3\\n'";
+const STL = `'solid a\\n${['0 0 0,0 1 0,1 0 0', '0 0 0,1 0 0,0 0 1', '1 0 0,0 1 0,0 0 1', '0 1 0,0 0 0,0 0 1']
+  .map((facet) => `facet normal 0 0 0\\nouter loop\\nvertex ${facet.replaceAll(',', '\\nvertex ')}\\nendloop\\nendfacet\\n`)
+  .join('')}endsolid a\\n'`;
+
 /** What examples take for granted, each from those before it. */
 const WORLD: World = {
   gltf: "({ scene: new (await import('three')).Mesh(new (await import('three')).CapsuleGeometry(0.2, 1, 8, 16)) }) as unknown as import('three/addons/loaders/GLTFLoader.js').GLTF",
@@ -65,7 +70,9 @@ const OWN: Record<string, World> = {
   },
   meshDocument: { bytes: `new TextEncoder().encode(${OBJ})` },
   readObj: { file: `new Blob([${OBJ}])` },
+  readOff: { file: `new Blob([${OFF}])` },
   readPly: { file: `new Blob([${PLY}])` },
+  readStl: { file: `new Blob([${STL}])` },
   writeGlb: { bytes: `new TextEncoder().encode(${OBJ})` },
 };
 

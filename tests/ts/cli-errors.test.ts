@@ -33,7 +33,7 @@ const gltf = (uri: string) => JSON.stringify({ asset: { version: '2.0' }, buffer
 
 const files: Record<string, string | Uint8Array> = {
   'good.obj': OBJ(),
-  'damaged.obj': OBJ('v 1 2'),
+  'damaged.obj': OBJ('f 1 2 99'),
   'open.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\n',
   'page.glb': '<!DOCTYPE html><html></html>',
   'apart.gltf': gltf('none%20here.bin'),

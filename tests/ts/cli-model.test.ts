@@ -40,7 +40,10 @@ describe('readModel', () => {
       'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n';
     expect((await readModel(bytesOf(ply), 'called.glb', report())).format).toBe('PLY');
     expect((await readModel(bytesOf(TETRAHEDRON), 'called.OBJ', report())).format).toBe('OBJ');
-    await expect(readModel(bytesOf(TETRAHEDRON), 'called.glb', report())).rejects.toThrow(/"called.glb": .*an OBJ model/);
+    expect((await readModel(bytesOf(TETRAHEDRON), 'called.glb', report())).format).toBe('OBJ');
+    await expect(readModel(bytesOf('# nothing but a comment'), 'called.glb', report())).rejects.toThrow(
+      /"called.glb": .*an OBJ model/,
+    );
   });
 
   it('gives files without normals smooth ones of unit length, outward', async () => {

@@ -9,7 +9,7 @@ import { hashPositions } from '../../wasm/ts/hash.ts';
 import { readGlb, readMesh } from '../../web/assets/index.ts';
 import { meshFromObject } from '../../web/three/index.ts';
 import { STORAGES, store } from './support/made-gltf.ts';
-import { FEATURES } from './support/made-models.ts';
+import { FEATURES, STEERED } from './support/made-models.ts';
 
 const SEEDS = [1, 2, 3, 4];
 
@@ -54,7 +54,7 @@ function turned(triangles: ArrayLike<number>): number[] {
   }).flat();
 }
 
-describe.each(Object.entries(FEATURES))('%s', (name, make) => {
+describe.each(Object.entries({ ...FEATURES, ...STEERED }))('%s', (name, make) => {
   it.each(STORAGES)(`stored %s, is read as three.js shows it (seeds ${SEEDS.join(', ')})`, async (storage) => {
     for (const seed of SEEDS) {
       const { bytes } = store(make(seed), { seed, storage, place: 'glb' });

@@ -3,6 +3,7 @@ import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { readPly } from '../../web/assets/index.ts';
+import { outlines, outlinesOf } from './support/outlines.ts';
 
 const SEED = 20260811;
 
@@ -219,7 +220,6 @@ describe('readPly', () => {
     ['file-invalid', 'no z', [...ASCII_TRIANGLE.slice(0, -1), 'end_header', '0 0', '1 0', '0 1']],
     ['file-truncated', 'before vertex 2', [...ASCII_TRIANGLE, 'end_header', '0 0 000000000', '1 0 0']],
     ['file-invalid', 'Line 9 of the PLY file ends too early', [...ASCII_TRIANGLE, 'end_header', '0 0 0', '1 00000', '1 1 1']],
-    ['file-invalid', 'Line 9 of the PLY file has "7"', [...ASCII_TRIANGLE, 'end_header', '0 0 0', '1 1 1 7', '1 1 1']],
     ['file-invalid', 'finite number for y of vertex 0', [...ASCII_TRIANGLE, 'end_header', '0 nan 0', '1 1 1', '1 1 1']],
     [
       'file-invalid',
@@ -317,7 +317,7 @@ describe('readPly', () => {
       fc.property(made, (shape) => {
         const { positions, triangles } = readPly(write(shape));
         expect([...positions].map((x) => x + 0)).toEqual(shape.points.flat().map((x) => x + 0));
-        expect([...triangles]).toEqual(shape.faces.flatMap((face) => face.slice(2).flatMap((v, i) => [face[0], face[i + 1], v])));
+        expect(outlines(triangles)).toEqual(outlinesOf(shape.faces));
       }),
       { seed: SEED, numRuns: 300 },
     );

@@ -1,21 +1,22 @@
-/**
- * Where a mesh lies far from the origin, floats cannot hold its shape: at 4,000,000 they are half a unit apart. Such a mesh is given
- * about an origin of its own.
- */
+/** Where a mesh far from the origin is given about an origin of its own. */
 import type { Vec3 } from './types.ts';
 
-/** So many of its own diagonals away, a shape has lost about a ten-thousandth of its size to rounding. */
+/** How many diagonals a shape may be away from the origin before floats about that origin lose too much of it: then 2⁻²⁴ · 1,000 ≈ 6e-5. */
 const FAR = 1000;
 
 /**
- * The middle of a box, as floats, where the box is farther from the origin than 1,000 of its diagonals; undefined where it is nearer,
- * has no extent, or is not finite.
+ * The origin that a shape's positions are given about, exact as floats; undefined where they may be about the coordinates' own. `low` and
+ * `high` are the corners of the box of all vertices that the surface uses.
+ *
+ * A shape that is more than 1,000 of its diagonals away would keep a few bits of its own size in floats: doubles have them all, and about
+ * the middle of the box floats do.
  */
 export function chooseOrigin(low: Vec3, high: Vec3): Vec3 | undefined {
-  const gap = low.map((least, axis) => Math.max(least, -(high[axis] as number), 0));
-  const size = low.map((least, axis) => (high[axis] as number) - least);
-  const diagonal = Math.hypot(...size);
-  if (!(diagonal > 0 && Math.hypot(...gap) > FAR * diagonal)) return undefined;
-  const middle = low.map((least, axis) => Math.fround(least + 0.5 * (size[axis] as number))) as [number, number, number];
-  return middle.every(Number.isFinite) ? middle : undefined;
+  const axes = [0, 1, 2] as const;
+  const diagonal = Math.hypot(...axes.map((axis) => high[axis] - low[axis]));
+  const distance = Math.hypot(...axes.map((axis) => Math.max(low[axis], -high[axis], 0)));
+  // A single place has no size that could get lost.
+  if (!(diagonal > 0 && distance > FAR * diagonal)) return undefined;
+  const center = (axis: 0 | 1 | 2) => Math.fround(low[axis] / 2 + high[axis] / 2);
+  return [center(0), center(1), center(2)];
 }

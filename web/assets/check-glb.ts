@@ -1,9 +1,9 @@
 /** A GLB that is whole in itself, checked; and what files are that are none. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { asBytes, type Bytes } from './bytes.ts';
 import { checkGltf } from './check-gltf.ts';
 import { isGlb, splitGlb, truncated } from './glb-chunks.ts';
 import type { GltfJson } from './gltf-json.ts';
+import { type FileBytes, toBytes } from './to-bytes.ts';
 
 /** What files look like that people drop by mistake, by their first characters. */
 const LOOK_ALIKES: readonly (readonly [RegExp, string, string])[] = [
@@ -38,8 +38,8 @@ export interface GlbParts {
  * console.log(json.asset);
  * ```
  */
-export function checkGlb(bytes: Bytes): GlbParts {
-  const glb = asBytes(bytes);
+export function checkGlb(bytes: FileBytes): GlbParts {
+  const glb = toBytes(bytes);
   checkMagic(glb);
   const { json, bin, binStart, length } = splitGlb(glb);
   return { json: checkGltf(json, { binLength: bin?.length, jsonStart: 20, binStart, fileLength: length }), bin };

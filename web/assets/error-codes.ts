@@ -2,6 +2,8 @@
 export interface FileErrorCodes {
   /** No GLB, where one was expected. */
   'file-not-glb': true;
+  /** No bytes at all were given, but a string, a Blob or a promise. */
+  'file-not-bytes': true;
   /** It ends before what it announces. */
   'file-truncated': true;
   /** It contradicts its own format. */

@@ -1,9 +1,9 @@
 /** The buffers and images of a glTF, from data URIs and from files beside it. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { asBytes } from './bytes.ts';
 import { decodeDataUri, isDataUri } from './data-uri.ts';
 import { asObject, type GltfJson } from './gltf-json.ts';
 import type { GltfReadOptions } from './gltf-warnings.ts';
+import { toBytes } from './to-bytes.ts';
 
 /** The objects of a list in the JSON, with their numbers; whether it is a list at all is checked later. */
 export function entriesOf(json: GltfJson, name: string): (readonly [number, GltfJson])[] {
@@ -59,7 +59,7 @@ export class Resources {
     for (const name of plain === uri ? [uri] : [plain, uri]) {
       try {
         const bytes = await this.#resource?.(name, kind);
-        if (bytes) return asBytes(bytes);
+        if (bytes) return toBytes(bytes);
       } catch (error) {
         failure ??= error;
       }

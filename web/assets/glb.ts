@@ -1,12 +1,12 @@
 import type { Document, Extension } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import { asBytes, type Bytes } from './bytes.ts';
 import { checkMagic } from './check-glb.ts';
 import { createIo, type IoOptions } from './io.ts';
 import { type GlbMesh, meshDocument } from './mesh-document.ts';
 import { openGltf } from './open-gltf.ts';
-import { type ReadOptions, toDocument } from './to-document.ts';
+import { type FileBytes, toBytes } from './to-bytes.ts';
+import { type ReadGltfOptions, toDocument } from './to-document.ts';
 import { attachBody } from './write-body.ts';
 
 /** They compress again, for which they need an encoder: only for those who register them. */
@@ -25,8 +25,8 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
  * const { mesh } = readMesh(document);
  * ```
  */
-export async function readGlb(bytes: Bytes, options: ReadOptions = {}): Promise<Document> {
-  const glb = asBytes(bytes);
+export async function readGlb(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
+  const glb = toBytes(bytes);
   checkMagic(glb);
   return toDocument(await openGltf(glb, options), options);
 }

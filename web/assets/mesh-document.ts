@@ -3,7 +3,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { TypedArray } from '../../wasm/ts/types.ts';
 import { areaNormals } from './area-normals.ts';
 
-/** A mesh of typed arrays, as the solver takes it and `readObj` and `readPly` give it, to be written as glTF. */
+/** A mesh of typed arrays, as the solver takes it and `readObj`, `readPly`, `readStl` and `readOff` give it, to be written as glTF. */
 export interface GlbMesh {
   /** n×3. */
   readonly positions: TypedArray;
@@ -13,20 +13,22 @@ export interface GlbMesh {
   readonly normals?: TypedArray | undefined;
   /** n×2, from the top left. */
   readonly uvs?: TypedArray | undefined;
+  /** Where the positions begin, as `FileMesh` has it: the node's translation. */
+  readonly origin?: readonly [number, number, number] | undefined;
 }
 
 /**
  * A document of one mesh in one node, its vertices in their order: what `attachBody` and other tools of glTF-Transform go on with.
- * Positions are stored as floats.
+ * Positions are stored as floats, about the node's translation where the mesh has an origin.
  *
- * Throws 'invalid-shape' for lengths that do not agree, 'mesh-not-finite' or 'mesh-index-out-of-range'.
+ * Throws 'invalid-shape' for lengths that do not agree or an origin that is no place, 'mesh-not-finite' or 'mesh-index-out-of-range'.
  *
  * ```ts
  * const document = meshDocument(readObj(bytes), 'cow');
  * ```
  */
-export function meshDocument({ positions, triangles = new Uint32Array(), normals, uvs }: GlbMesh, name = ''): Document {
-  check({ positions, triangles, normals, uvs });
+export function meshDocument({ positions, triangles = new Uint32Array(), normals, uvs, origin }: GlbMesh, name = ''): Document {
+  check({ positions, triangles, normals, uvs, origin });
   const document = new Document();
   const buffer = document.createBuffer();
   const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3', array: Float32Array | Uint16Array | Uint32Array) =>
@@ -46,11 +48,12 @@ export function meshDocument({ positions, triangles = new Uint32Array(), normals
     primitive.setAttribute('NORMAL', accessor('VEC3', normals ? Float32Array.from(normals) : areaNormals(floats, triangles)));
   if (uvs) primitive.setAttribute('TEXCOORD_0', accessor('VEC2', Float32Array.from(uvs)));
   const node = document.createNode(name).setMesh(document.createMesh(name).addPrimitive(primitive));
+  if (origin) node.setTranslation([...origin]);
   document.getRoot().setDefaultScene(document.createScene().addChild(node));
   return document;
 }
 
-function check({ positions, triangles, normals, uvs }: Required<GlbMesh>): void {
+function check({ positions, triangles, normals, uvs, origin }: Required<GlbMesh>): void {
   const count = positions.length / 3;
   const lengths = [
     ['positions', positions.length, Number.isInteger(count) && count > 0, 'x, y and z for every vertex'],
@@ -63,6 +66,12 @@ function check({ positions, triangles, normals, uvs }: Required<GlbMesh>): void 
     throw new HandlebodyError('invalid-shape', {
       message: `The mesh’s ${what} have ${length} numbers; its positions have ${positions.length}.`,
       remedy: `Give ${remedy}.`,
+    });
+  }
+  if (origin && !(origin.length === 3 && origin.every((x) => Number.isFinite(Math.fround(x))))) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `The mesh’s origin is ${origin.join(', ')}.`,
+      remedy: 'Give three finite numbers, or none.',
     });
   }
   for (const numbers of [positions, normals ?? [], uvs ?? []]) {

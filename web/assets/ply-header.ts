@@ -1,6 +1,7 @@
 /** The header of a PLY: which elements follow, of which properties, and that the file is long enough to hold them. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { lineError, quote, textLines } from './text-lines.ts';
+import type { PassedOver } from './file-warnings.ts';
+import { lineError, quote, type TextSource, textLines } from './text-lines.ts';
 
 /** Bytes of each scalar type, under both of its names. */
 const BYTES = {
@@ -55,9 +56,10 @@ const MAX_HEADER = 1 << 16;
  * Throws 'file-invalid' naming the line, 'file-unsupported' for another version, 'file-truncated' when the elements that it announces
  * cannot lie in the bytes that follow.
  */
-export function parsePlyHeader(bytes: Uint8Array): PlyHeader {
+export function parsePlyHeader(source: TextSource, passed: PassedOver): PlyHeader {
+  const { bytes } = source;
   const head = bytes.subarray(0, MAX_HEADER);
-  const fail = (line: number, what: string) => lineError(bytes, line, { format: 'PLY', what });
+  const fail = (line: number, what: string) => lineError(source, line, { format: 'PLY', what });
   let format: PlyHeader['format'] | undefined;
   const elements: PlyElement[] = [];
   for (const { text, number } of textLines(head)) {
@@ -77,17 +79,19 @@ export function parsePlyHeader(bytes: Uint8Array): PlyHeader {
       element.properties.push(parseProperty(rest, (what) => fail(number, what)));
     } else if (keyword === 'end_header') {
       if (!format) throw fail(number, 'ends a header that gives no format');
+      if (source.isTranscoded && format !== 'ascii')
+        throw fail(number, 'ends a header in UTF-16, in which no binary data can follow');
       const header = { format, elements, start: endOfHeader(head), firstLine: number + 1 };
-      checkLength(header, bytes.length);
+      checkLength(header, source);
       return header;
     } else if (keyword !== 'comment' && keyword !== 'obj_info' && keyword !== '') {
-      throw fail(number, `begins with ${quote(keyword)}, which no PLY header has`);
+      passed.note('statements-unknown', () => fail(number, `begins with ${quote(keyword)}, which no PLY header has`));
     }
   }
   throw new HandlebodyError('file-truncated', {
     message: `The PLY file's header does not end within its first ${head.length} bytes.`,
     remedy: 'Download or export it again.',
-    culprit: { kind: 'byte', index: head.length },
+    culprit: { kind: 'byte', index: source.byteOf(head.length) },
   });
 }
 
@@ -134,7 +138,8 @@ function endOfHeader(head: Uint8Array): number {
 }
 
 /** The fewest bytes that the announced elements take, against those that are there: before anything is allocated. */
-function checkLength({ format, elements, start }: PlyHeader, length: number): void {
+function checkLength({ format, elements, start }: PlyHeader, source: TextSource): void {
+  const { length } = source.bytes;
   let needed = start;
   for (const { name, count, properties } of elements) {
     if (properties.length === 0 && count > 0) {
@@ -151,7 +156,7 @@ function checkLength({ format, elements, start }: PlyHeader, length: number): vo
   throw new HandlebodyError('file-truncated', {
     message: `The PLY file announces at least ${needed} bytes, and has ${length}.`,
     remedy: 'Download or export it again.',
-    culprit: { kind: 'byte', index: length },
+    culprit: { kind: 'byte', index: source.byteOf(length) },
   });
 }
 

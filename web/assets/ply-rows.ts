@@ -1,37 +1,44 @@
 /** The data of a PLY, value by value, whichever of its three formats holds it. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import type { PassedOver } from './file-warnings.ts';
 import type { PlyElement, PlyHeader, PlyType } from './ply-header.ts';
 import { plyBytes } from './ply-header.ts';
-import { lineError, parseDecimal, quote, textLines } from './text-lines.ts';
+import { lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
 
 /** Reads rows in the file's order. Every read was checked to lie in the file. */
 export interface PlyRows {
   /** Goes to the next row; `what` names it for errors. */
   begin(what: string): void;
+  /** A number; NaN for a word of a text that is none. */
   read(type: PlyType): number;
+  skip(type: PlyType, count: number): void;
   /** Asks that `count` more values of a type can be there, before they are asked for one by one. */
   expect(type: PlyType, count: number): void;
-  /** The row is over: text must have no more in it. */
+  /** The row is over: what a text has more in it is passed over. */
   end(): void;
+  /** All rows are over, and so should be the file. */
+  close(): void;
   /** An error at where the reading is. */
   fail(what: string): HandlebodyError;
 }
 
-export function plyRows(bytes: Uint8Array, header: PlyHeader): PlyRows {
-  return header.format === 'ascii' ? new TextRows(bytes, header) : new BinaryRows(bytes, header);
+export function plyRows(source: TextSource, header: PlyHeader, passed: PassedOver): PlyRows {
+  return header.format === 'ascii' ? new TextRows(source, header, passed) : new BinaryRows(source, header, passed);
 }
 
 class TextRows implements PlyRows {
-  readonly #bytes: Uint8Array;
+  readonly #source: TextSource;
+  readonly #passed: PassedOver;
   readonly #lines: ReturnType<typeof textLines>;
   #line: number;
   #words: string[] = [];
   #next = 0;
 
-  constructor(bytes: Uint8Array, { start, firstLine }: PlyHeader) {
-    this.#bytes = bytes;
+  constructor(source: TextSource, { start, firstLine }: PlyHeader, passed: PassedOver) {
+    this.#source = source;
+    this.#passed = passed;
     this.#line = firstLine;
-    this.#lines = textLines(bytes.subarray(start), firstLine);
+    this.#lines = textLines(source.bytes.subarray(start), firstLine);
   }
 
   begin(what: string): void {
@@ -46,18 +53,18 @@ class TextRows implements PlyRows {
     throw new HandlebodyError('file-truncated', {
       message: `The PLY file ends before ${what}.`,
       remedy: 'Download or export it again.',
-      culprit: { kind: 'byte', index: this.#bytes.length },
+      culprit: { kind: 'byte', index: this.#source.byteOf(this.#source.bytes.length) },
     });
   }
 
   read(type: PlyType): number {
-    const word = this.#words[this.#next++];
-    if (word === undefined) throw this.fail('ends too early');
-    const value = parseDecimal(word);
-    // Coordinates that are no numbers are found where they are used: a file may well have them in what is skipped.
-    if (type !== 'float' && type !== 'double' && !Number.isInteger(value))
-      throw this.fail(`has ${quote(word)} where a whole number should be`);
-    return value;
+    this.expect(type, 1);
+    return parseDecimal(this.#words[this.#next++]);
+  }
+
+  skip(type: PlyType, count: number): void {
+    this.expect(type, count);
+    this.#next += count;
   }
 
   expect(_: PlyType, count: number): void {
@@ -65,23 +72,37 @@ class TextRows implements PlyRows {
   }
 
   end(): void {
-    if (this.#next < this.#words.length) throw this.fail(`has ${quote(this.#words[this.#next] ?? '')} left over`);
+    if (this.#next < this.#words.length)
+      this.#passed.note('numbers-left-over', () => this.fail(`has ${quote(this.#words[this.#next] ?? '')} left over`));
+  }
+
+  close(): void {
+    for (const { text, number } of this.#lines) {
+      const left = text.trim();
+      if (left === '') continue;
+      this.#line = number;
+      this.#passed.note('data-left-over', () => this.fail(`has ${quote(left)} left over`), left.length);
+    }
   }
 
   fail(what: string): HandlebodyError {
-    return lineError(this.#bytes, this.#line, { format: 'PLY', what });
+    return lineError(this.#source, this.#line, { format: 'PLY', what });
   }
 }
 
 class BinaryRows implements PlyRows {
   readonly #view: DataView;
   readonly #little: boolean;
+  readonly #passed: PassedOver;
+  readonly #byteOf: (at: number) => number;
   #offset: number;
   #row = '';
 
-  constructor(bytes: Uint8Array, { start, format }: PlyHeader) {
+  constructor({ bytes, byteOf }: TextSource, { start, format }: PlyHeader, passed: PassedOver) {
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     this.#little = format === 'binary_little_endian';
+    this.#passed = passed;
+    this.#byteOf = byteOf;
     this.#offset = start;
   }
 
@@ -114,17 +135,29 @@ class BinaryRows implements PlyRows {
     }
   }
 
+  skip(type: PlyType, count: number): void {
+    this.expect(type, count);
+    this.#offset += count * plyBytes(type);
+  }
+
   expect(type: PlyType, count: number): void {
     if (count * plyBytes(type) > this.#view.byteLength - this.#offset) throw this.#truncated();
   }
 
   end(): void {}
 
+  close(): void {
+    const left = this.#view.byteLength - this.#offset;
+    if (left === 0) return;
+    this.#row = 'last row';
+    this.#passed.note('data-left-over', () => this.fail(`is followed by ${left} bytes`), left);
+  }
+
   fail(what: string): HandlebodyError {
     return new HandlebodyError('file-invalid', {
-      message: `The PLY file's ${this.#row}, before byte ${this.#offset}, ${what}.`,
+      message: `The PLY file's ${this.#row}, before byte ${this.#byteOf(this.#offset)}, ${what}.`,
       remedy: 'The file is damaged: download or export it again.',
-      culprit: { kind: 'byte', index: this.#offset },
+      culprit: { kind: 'byte', index: this.#byteOf(this.#offset) },
     });
   }
 
@@ -132,7 +165,7 @@ class BinaryRows implements PlyRows {
     return new HandlebodyError('file-truncated', {
       message: `The PLY file ends within ${this.#row}.`,
       remedy: 'Download or export it again.',
-      culprit: { kind: 'byte', index: this.#view.byteLength },
+      culprit: { kind: 'byte', index: this.#byteOf(this.#view.byteLength) },
     });
   }
 }
@@ -141,18 +174,13 @@ class BinaryRows implements PlyRows {
 export function skipElement(rows: PlyRows, { name, count, properties }: PlyElement): void {
   for (let row = 0; row < count; row++) {
     rows.begin(`${quote(name)} ${row}`);
-    for (const { type, lengthType } of properties) skipValues(rows, type, lengthType ? listLength(rows, lengthType) : 1);
+    for (const { type, lengthType } of properties) rows.skip(type, lengthType ? listLength(rows, lengthType) : 1);
     rows.end();
   }
 }
 
-export function skipValues(rows: PlyRows, type: PlyType, count: number): void {
-  rows.expect(type, count);
-  for (let i = 0; i < count; i++) rows.read(type);
-}
-
 export function listLength(rows: PlyRows, type: PlyType): number {
   const length = rows.read(type);
-  if (length < 0) throw rows.fail(`has a list of ${length} numbers`);
+  if (!(Number.isInteger(length) && length >= 0)) throw rows.fail(`has a list of ${length} numbers`);
   return length;
 }

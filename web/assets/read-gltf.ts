@@ -1,7 +1,7 @@
 import type { Document } from '@gltf-transform/core';
-import { asBytes, type Bytes } from './bytes.ts';
 import { openGltf } from './open-gltf.ts';
-import { type ReadOptions, toDocument } from './to-document.ts';
+import { type FileBytes, toBytes } from './to-bytes.ts';
+import { type ReadGltfOptions, toDocument } from './to-document.ts';
 
 /**
  * Reads a .gltf into a glTF-Transform document, with the files that it names, or with its data in data URIs; a GLB is read, too. The
@@ -19,6 +19,6 @@ import { type ReadOptions, toDocument } from './to-document.ts';
  * const { mesh } = readMesh(document);
  * ```
  */
-export async function readGltf(bytes: Bytes, options: ReadOptions = {}): Promise<Document> {
-  return toDocument(await openGltf(asBytes(bytes), options), options);
+export async function readGltf(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
+  return toDocument(await openGltf(toBytes(bytes), options), options);
 }

@@ -1,5 +1,12 @@
-import { checkCounts, type FileMesh, NumberList, unitRows } from './file-mesh.ts';
-import { lineError, parseDecimal, quote, textLines } from './text-lines.ts';
+import type { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { checkCounts, type FileMesh, finishNormals, makeSurface } from './file-mesh.ts';
+import { PassedOver, type ReadOptions } from './file-warnings.ts';
+import { NumberList } from './number-list.ts';
+import { perVertex } from './obj-attributes.ts';
+import { statements } from './obj-statements.ts';
+import { lineError, parseDecimal, quote, type TextSource } from './text-lines.ts';
+import { textSource, withoutPadding } from './text-source.ts';
+import { type FileBytes, toBytes } from './to-bytes.ts';
 
 /** Statements of the format that say nothing about the surface's triangles. */
 const IGNORED = new Set(
@@ -9,169 +16,158 @@ const IGNORED = new Set(
   ).split(' '),
 );
 /** Of these, the ones that carry shapes which are left out. */
-const LEFT_OUT: Record<string, string> = { l: 'lines', p: 'points', curv: 'curves', curv2: 'curves', surf: 'free-form surfaces' };
+const LEFT_OUT = new Set(['l', 'p', 'curv', 'curv2', 'surf']);
 
-/** A statement is taken apart as a whole: real ones have some hundred letters. */
-const MAX_STATEMENT = 1 << 20;
-
-/** Corners of all triangles, as numbers into the lists of the file; 0 stands for none in `uvs` and `normals`. */
-interface Corners {
-  readonly vertices: NumberList<Uint32Array>;
-  readonly uvs: NumberList<Uint32Array>;
-  readonly normals: NumberList<Uint32Array>;
-}
+const FORMAT = 'OBJ';
+const WIDTHS = { vt: 2, vn: 3 } as const;
 
 /**
  * Reads a Wavefront OBJ. Its vertices are the `v` lines, in their order and all of them, so that vertex 0 of the mesh is the first `v` line.
- * Polygons become fans of triangles. Groups and materials are ignored, as are the numbers behind a vertex's third. Normals and texture
- * coordinates are kept where every vertex has only one; where they differ from face to face they are left out, with a warning.
+ * Polygons become triangles, concave ones by ear clipping. Groups and materials are ignored. Normals and texture coordinates are kept where
+ * every vertex has only one; where they differ from face to face they are left out, with a warning.
  *
- * Throws 'file-invalid' naming the line, or 'mesh-too-large'. Safe on hostile input: it takes memory by what the file's lines hold.
+ * What does not matter for the surface is passed over, with one warning for each kind (`FileWarning`): bad normals and texture coordinates,
+ * faces of two corners, unknown statements, bad vertices that no face uses. With `strict` it is refused. Text may be UTF-8 or UTF-16.
+ *
+ * Throws 'file-invalid' naming the line, 'mesh-too-large' or 'file-not-bytes'. Safe on hostile input: it takes memory by what the file's
+ * lines hold.
  *
  * ```ts
- * const { positions, triangles } = readObj(new Uint8Array(await file.arrayBuffer()));
+ * const { positions, triangles } = readObj(await file.arrayBuffer());
  * const body = await hb.bake({ positions, triangles });
  * ```
  */
-export function readObj(bytes: Uint8Array): FileMesh {
-  const fail = (line: number, what: string) => lineError(bytes, line, { format: 'OBJ', what });
-  const lists = {
-    v: new NumberList(new Float32Array()),
-    vt: new NumberList(new Float32Array()),
-    vn: new NumberList(new Float32Array()),
+export function readObj(given: FileBytes, options: ReadOptions = {}): FileMesh {
+  const passed = new PassedOver(options);
+  const source = withoutPadding(textSource(toBytes(given)), passed, FORMAT);
+  const fail = (line: number, what: string) => lineError(source, line, { format: FORMAT, what });
+  const positions = new NumberList(new Float64Array());
+  const lists = { vt: new NumberList(new Float32Array()), vn: new NumberList(new Float32Array()) };
+  // Numbers of all corners; 0 stands for none in `vt` and `vn`.
+  const corners = {
+    v: new NumberList(new Uint32Array()),
+    vt: new NumberList(new Uint32Array()),
+    vn: new NumberList(new Uint32Array()),
   };
-  const widths = { v: 3, vt: 2, vn: 3 } as const;
-  const corners: Corners = {
-    vertices: new NumberList(new Uint32Array()),
-    uvs: new NumberList(new Uint32Array()),
-    normals: new NumberList(new Uint32Array()),
-  };
+  const sizes = new NumberList(new Uint32Array());
   // Faces may come before their vertices: the largest number asked for, and where, is compared at the end.
   const largest = { v: { number: 0, line: 0 }, vt: { number: 0, line: 0 }, vn: { number: 0, line: 0 } };
-  const leftOut = new Set<string>();
+  let hasFaces = false;
 
-  const readNumbers = (name: 'v' | 'vt' | 'vn', words: string[], line: number) => {
+  const readVertex = (words: string[], line: number) => {
+    for (let i = 1; i <= 3; i++) positions.push(parseDecimal(words[i]));
+    if (words.length > 4)
+      passed.note('attributes-left-out', () => fail(line, `has ${words.length - 1} numbers after "v", of which 3 are read`));
+    checkCounts(positions.length / 3, 0);
+  };
+
+  const readRow = (name: 'vt' | 'vn', words: string[], line: number) => {
     // A texture coordinate may have one number only.
     const needed = name === 'vt' ? 1 : 3;
-    if (words.length <= needed) throw fail(line, `has ${words.length - 1} numbers after "${name}" and needs ${needed}`);
-    for (let i = 1; i <= widths[name]; i++) {
-      const value = i < words.length ? parseDecimal(words[i]) : 0;
-      if (Number.isNaN(value)) throw fail(line, `has ${quote(words[i] ?? '')} where a finite number should be`);
+    let [isBad, size] = [false, 0];
+    for (let i = 1; i <= WIDTHS[name]; i++) {
+      const value = i <= needed || i < words.length ? parseDecimal(words[i]) : 0;
+      if (Number.isNaN(value)) isBad = true;
+      size += Math.abs(value);
       lists[name].push(value);
     }
-    if (name === 'v') checkCounts(lists.v.length / 3, 0);
+    if (isBad || (name === 'vn' && size === 0))
+      passed.note(name === 'vt' ? 'uvs-bad' : 'normals-bad', () => fail(line, describeBad(words, needed)));
   };
 
   const resolve = (name: 'v' | 'vt' | 'vn', word: string, line: number): number => {
-    const given = /^[+-]?\d{1,15}$/.test(word) ? Number(word) : 0;
-    const number = given < 0 ? lists[name].length / widths[name] + 1 + given : given;
-    if (number < 1) throw fail(line, `asks for ${name} ${quote(word)}, and there is no such one`);
+    const count = name === 'v' ? positions.length / 3 : lists[name].length / WIDTHS[name];
+    const value = Number(word);
+    const given = /^[+-]?\d{1,15}$/.test(word) ? value : 0;
+    const number = given < 0 ? count + 1 + given : given;
+    if (number < 1) {
+      const refusal = () => fail(line, `asks for ${name} ${quote(word)}, and there is no such one`);
+      if (name === 'v') throw refusal();
+      passed.note(name === 'vt' ? 'uvs-bad' : 'normals-bad', refusal);
+      return 0;
+    }
     if (number > largest[name].number) largest[name] = { number, line };
     return number;
   };
 
   const readFace = (words: string[], line: number) => {
-    if (words.length < 4) throw fail(line, `has a face of ${words.length - 1} corners and needs 3`);
-    const face = words.slice(1).map((word) => {
-      const [v = '', vt = '', vn = '', ...rest] = word.split('/');
-      if (rest.length > 0) throw fail(line, `has ${quote(word)} where a corner such as 1, 1/2, 1//3 or 1/2/3 should be`);
-      return [resolve('v', v, line), vt && resolve('vt', vt, line), vn && resolve('vn', vn, line)] as const;
-    });
-    for (let i = 2; i < face.length; i++) {
-      for (const [v, vt, vn] of [face[0], face[i - 1], face[i]] as (typeof face)[number][]) {
-        corners.vertices.push(v - 1);
-        corners.uvs.push(vt || 0);
-        corners.normals.push(vn || 0);
-      }
+    hasFaces = true;
+    const size = words.length - 1;
+    if (size < 3) {
+      passed.note('faces-degenerate', () => fail(line, `has a face of ${size} corners and needs 3`));
+      return;
     }
-    checkCounts(0, corners.vertices.length / 3);
+    for (let i = 1; i <= size; i++) {
+      const [v = '', vt = '', vn = '', ...rest] = (words[i] as string).split('/');
+      if (rest.length > 0)
+        throw fail(line, `has ${quote(words[i] as string)} where a corner such as 1, 1/2, 1//3 or 1/2/3 should be`);
+      corners.v.push(resolve('v', v, line) - 1);
+      corners.vt.push(vt === '' ? 0 : resolve('vt', vt, line));
+      corners.vn.push(vn === '' ? 0 : resolve('vn', vn, line));
+    }
+    sizes.push(size);
+    checkCounts(0, corners.v.length - 2 * sizes.length);
   };
 
-  for (const { text, line } of statements(bytes)) {
+  for (const { text, line } of statements(source)) {
     const words = text.split(/\s+/);
     const keyword = words[0] as string;
-    if (keyword === 'v' || keyword === 'vt' || keyword === 'vn') readNumbers(keyword, words, line);
+    if (keyword === 'v') readVertex(words, line);
+    else if (keyword === 'vt' || keyword === 'vn') readRow(keyword, words, line);
     else if (keyword === 'f' || keyword === 'fo') readFace(words, line);
-    else if (!IGNORED.has(keyword)) throw fail(line, `begins with ${quote(keyword)}, which is no OBJ statement`);
-    else if (LEFT_OUT[keyword]) leftOut.add(LEFT_OUT[keyword]);
+    else if (LEFT_OUT.has(keyword)) passed.note('shapes-left-out', () => fail(line, `begins with ${quote(keyword)}`));
+    else if (!IGNORED.has(keyword))
+      passed.note('statements-unknown', () => fail(line, `begins with ${quote(keyword)}, which is no OBJ statement`));
   }
 
-  for (const name of ['v', 'vt', 'vn'] as const) {
-    const count = lists[name].length / widths[name];
+  const vertices = positions.length / 3;
+  if (largest.v.number > vertices && vertices > 0)
+    throw fail(largest.v.line, `asks for v ${largest.v.number}, and the file has ${vertices}`);
+  const surface = makeSurface({
+    format: FORMAT,
+    positions: positions.finish(),
+    corners: corners.v.finish(),
+    sizes: sizes.finish(),
+    hasFaces,
+    passed,
+    badVertex: (vertex) => badVertex(source, vertex),
+  });
+
+  const attribute = (name: 'vt' | 'vn'): Float32Array | undefined => {
     const { number, line } = largest[name];
-    if (number > count) throw fail(line, `asks for ${name} ${number}, and the file has ${count}`);
-  }
-  return assemble({ lists, corners, warnings: [...leftOut].map((what) => `The file's ${what} were left out.`) });
-}
-
-interface Assembly {
-  readonly lists: Record<'v' | 'vt' | 'vn', NumberList<Float32Array>>;
-  readonly corners: Corners;
-  readonly warnings: string[];
-}
-
-function assemble({ lists, corners, warnings }: Assembly): FileMesh {
-  const triangles = corners.vertices.finish();
-  const vertices = lists.v.length / 3;
-  const uvs = perVertex({ list: lists.vt, width: 2, corners: corners.uvs, triangles, vertices });
-  const normals = perVertex({ list: lists.vn, width: 3, corners: corners.normals, triangles, vertices });
-  if (uvs === 'differ') warnings.push('Texture coordinates that differ between the faces of a vertex were left out.');
-  if (normals === 'differ') warnings.push('Normals that differ between the faces of a vertex were replaced by smooth ones.');
+    const refuse = (what: string) => () => fail(line, what);
+    const [split, bad] = name === 'vt' ? (['uvs-split', 'uvs-bad'] as const) : (['normals-split', 'normals-bad'] as const);
+    const found = perVertex({ list: lists[name], width: WIDTHS[name], numbers: corners[name], corners: corners.v, vertices });
+    const { missing, differing } = found;
+    if (missing > 0)
+      passed.note(bad, refuse(`asks for ${name} ${number}, and the file has ${lists[name].length / WIDTHS[name]}`), missing);
+    if (differing > 0) passed.note(split, refuse(`is at a seam`), differing);
+    return found.rows;
+  };
+  const [uvs, normals] = [attribute('vt'), attribute('vn')];
   // OBJ counts from the bottom, glTF from the top.
-  if (uvs instanceof Float32Array) for (let i = 1; i < uvs.length; i += 2) uvs[i] = 1 - (uvs[i] as number);
+  if (uvs) for (let i = 1; i < uvs.length; i += 2) uvs[i] = 1 - (uvs[i] as number);
   return {
-    positions: lists.v.finish(),
-    triangles,
-    normals: normals instanceof Float32Array ? unitRows(normals) : undefined,
-    uvs: uvs instanceof Float32Array ? uvs : undefined,
-    warnings,
+    ...surface,
+    normals: normals && finishNormals(normals, surface),
+    uvs: uvs?.every(Number.isFinite) ? uvs : undefined,
+    warnings: passed.warnings(),
   };
 }
 
-interface Attribute {
-  readonly list: NumberList<Float32Array>;
-  readonly width: number;
-  readonly corners: NumberList<Uint32Array>;
-  readonly triangles: Uint32Array;
-  readonly vertices: number;
+/** What is wrong with the numbers of a statement. */
+function describeBad(words: readonly string[], needed: number): string {
+  if (words.length <= needed) return `has ${words.length - 1} numbers after "${words[0]}" and needs ${needed}`;
+  const bad = words.slice(1, 4).find((word) => Number.isNaN(parseDecimal(word)));
+  return bad === undefined ? `has a "${words[0]}" without a direction` : `has ${quote(bad)} where a finite number should be`;
 }
 
-/** One row a vertex, from what its corners name. Without any, or with a vertex that no face gives one: undefined. */
-function perVertex({ list, width, corners, triangles, vertices }: Attribute): Float32Array | 'differ' | undefined {
-  if (list.length === 0 || triangles.length === 0) return undefined;
-  const chosen = new Uint32Array(vertices);
-  for (let i = 0; i < triangles.length; i++) {
-    const [vertex, number] = [triangles[i] as number, corners.at(i)];
-    const before = chosen[vertex] as number;
-    if (number === 0) return undefined;
-    if (before === 0) chosen[vertex] = number;
-    else if (before !== number) {
-      for (let k = 0; k < width; k++) if (list.at((before - 1) * width + k) !== list.at((number - 1) * width + k)) return 'differ';
-    }
+/** The error for a vertex without a place: its statement is looked for again, so that none has to be kept for all. */
+function badVertex(source: TextSource, vertex: number): HandlebodyError {
+  let before = 0;
+  for (const { text, line } of statements(source)) {
+    const words = text.split(/\s+/);
+    if (words[0] === 'v' && before++ === vertex) return lineError(source, line, { format: FORMAT, what: describeBad(words, 3) });
   }
-  const rows = new Float32Array(vertices * width);
-  for (let vertex = 0; vertex < vertices; vertex++) {
-    const number = chosen[vertex] as number;
-    // A vertex of no face: any unit vector will do for a normal, any place for a texture coordinate.
-    for (let k = 0; k < width; k++) rows[vertex * width + k] = number === 0 ? Number(k === 1) : list.at((number - 1) * width + k);
-  }
-  return rows;
-}
-
-/** Statements without comments and blank lines; a backslash at a line's end joins the next one. */
-function* statements(bytes: Uint8Array): Generator<{ text: string; line: number }> {
-  let [joined, first] = ['', 0];
-  for (const { text, number } of textLines(bytes)) {
-    const comment = text.indexOf('#');
-    const code = (comment === -1 ? text : text.slice(0, comment)).trimEnd();
-    if (joined === '') first = number;
-    const goesOn = code.endsWith('\\');
-    if (goesOn) joined += `${code.slice(0, -1)} `;
-    if (joined.length + code.length > MAX_STATEMENT) throw lineError(bytes, first, { format: 'OBJ', what: 'says more than 1 MiB' });
-    if (goesOn) continue;
-    const statement = (joined + code).trim();
-    joined = '';
-    if (statement !== '') yield { text: statement, line: first };
-  }
-  if (joined.trim() !== '') yield { text: joined.trim(), line: first };
+  throw new Error(`no vertex ${vertex}`);
 }

@@ -5,6 +5,15 @@ const BLOCK = 1 << 20;
 const MAX_LINE = 1 << 24;
 const [LF, CR] = [10, 13];
 
+/** A text as UTF-8 without a mark, and where its bytes lie in the file. */
+export interface TextSource {
+  readonly bytes: Uint8Array;
+  /** Whether the file's own bytes are others: such a file holds text only. */
+  readonly isTranscoded: boolean;
+  /** The byte of the file that a byte of the text comes from. */
+  byteOf(at: number): number;
+}
+
 interface TextLine {
   readonly text: string;
   /** From 1. */
@@ -58,11 +67,11 @@ function byteOfLine(bytes: Uint8Array, line: number): number {
 }
 
 /** An error that names a line of a text file. */
-export function lineError(bytes: Uint8Array, line: number, { format, what }: { format: string; what: string }): HandlebodyError {
+export function lineError(source: TextSource, line: number, { format, what }: { format: string; what: string }): HandlebodyError {
   return new HandlebodyError('file-invalid', {
     message: `Line ${line} of the ${format} file ${what}.`,
     remedy: 'Repair that line, or export the model again.',
-    culprit: { kind: 'byte', index: byteOfLine(bytes, line) },
+    culprit: { kind: 'byte', index: source.byteOf(byteOfLine(source.bytes, line)) },
   });
 }
 
@@ -71,6 +80,11 @@ const NUMBER = /^[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?$/;
 /** A decimal number, or NaN: unlike `Number`, which also takes '', '0x10' and 'Infinity'. Too large for a float is NaN as well. */
 export function parseDecimal(token: string | undefined): number {
   const value = token !== undefined && NUMBER.test(token) ? Number(token) : Number.NaN;
+  return heldByFloat(value);
+}
+
+/** The number, or NaN where a float cannot hold it. */
+export function heldByFloat(value: number): number {
   return Number.isFinite(Math.fround(value)) ? value : Number.NaN;
 }
 

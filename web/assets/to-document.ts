@@ -11,13 +11,13 @@ import { keepUnknown } from './kept-extension.ts';
 const ALWAYS = ['KHR_mesh_quantization', 'HANDLEBODY_body', 'HANDLEBODY_pose_space'];
 const DRACO = 'KHR_draco_mesh_compression';
 
-export interface ReadOptions extends IoOptions, GltfReadOptions {
+export interface ReadGltfOptions extends IoOptions, GltfReadOptions {
   /** The decoder of Google's `draco3dgltf`, `await draco3d.createDecoderModule()`: without it, compressed models are refused. */
   readonly draco?: object | undefined;
 }
 
 /** Throws 'file-unsupported' for what needs an extension that is not known, 'file-invalid' for what glTF-Transform cannot read. */
-export async function toDocument(parts: GlbParts, options: ReadOptions): Promise<Document> {
+export async function toDocument(parts: GlbParts, options: ReadGltfOptions): Promise<Document> {
   const { draco, onWarning } = options;
   const used = (parts.json.extensionsUsed ?? []) as readonly string[];
   const given = (options.extensions ?? []).filter(({ EXTENSION_NAME }) => draco || EXTENSION_NAME !== DRACO);

@@ -16,6 +16,9 @@ const COMMON: Options = {
 /** And those that write a file. */
 export const WRITES: Options = { output: { type: 'string', short: 'o' }, force: { type: 'boolean', short: 'f' } };
 
+/** And those that read a model of any format. */
+export const READS: Options = { strict: { type: 'boolean' } };
+
 export function usageError(message: string, remedy: string): HandlebodyError {
   return new HandlebodyError('usage', { message, remedy });
 }

@@ -1,7 +1,7 @@
 import { load } from '../../wasm/ts/index.ts';
 import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
 import { attachBody, readMesh } from '../assets/index.ts';
-import { count, type Options, oneOf, theFile, theOutput, type Values, WRITES } from './arguments.ts';
+import { count, type Options, oneOf, READS, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
 import { readBack } from './read-back.ts';
@@ -12,6 +12,7 @@ const MORPHS = ['rest', 'present'] as const;
 const PACKINGS = ['skeleton', 'tree'] as const;
 
 export const BAKE_OPTIONS: Options = {
+  ...READS,
   ...WRITES,
   centers: { type: 'string' },
   distance: { type: 'string' },
@@ -23,11 +24,11 @@ export const BAKE_OPTIONS: Options = {
 
 /** `handlebody bake`: a model with its interior distances in it. */
 export async function bakeCommand({ values, words, report, signal, clock }: Run): Promise<void> {
-  const input = theFile('bake', words, 'a model: a .glb, .gltf, .obj or .ply file');
+  const input = theFile('bake', words, 'a model: a .glb, .gltf, .obj, .ply, .stl or .off file');
   const options = bakeOptions(values);
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
-  const { document, format } = await readModel(await readInput(input), input, report);
+  const { document, format } = await readModel(await readInput(input), input, report, { strict: values.strict === true });
   const morphs = oneOf(values, 'morphs', MORPHS);
   const { mesh } = readMesh(document, { morphs, onWarning: (warning) => report.warn(warning) });
   clock.lap('read');

@@ -1,5 +1,5 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { type Options, parseCommandLine, usageError } from './arguments.ts';
+import { type Options, parseCommandLine, READS, usageError } from './arguments.ts';
 import { BAKE_OPTIONS, bakeCommand } from './bake.ts';
 import { Clock } from './clock.ts';
 import { DEFORM_OPTIONS, deformCommand } from './deform.ts';
@@ -18,7 +18,7 @@ const COMMANDS = new Map<string, { options: Options; run: (run: Run) => Promise<
   ['deform', { options: DEFORM_OPTIONS, run: deformCommand }],
   ['pose', { options: POSE_OPTIONS, run: poseCommand }],
   ['embed', { options: EMBED_OPTIONS, run: embedCommand }],
-  ['inspect', { options: {}, run: inspectCommand }],
+  ['inspect', { options: READS, run: inspectCommand }],
 ]);
 
 /** Runs the command with its arguments and returns the status that it ends with. Never throws. */

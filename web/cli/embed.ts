@@ -1,6 +1,7 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { fileFormat } from '../assets/file-format.ts';
 import { readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
 import { openAsGlb } from '../assets/open-gltf.ts';
 import { FIGURES, type Listed } from '../figures/list.ts';
@@ -8,7 +9,7 @@ import { type Options, theFile, theOutput, usageError, type Values, WRITES } fro
 import { type Content, embedPage } from './embed-page.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { filesBeside } from './files-beside.ts';
-import { formatOf, naming, readModel } from './model.ts';
+import { naming, readModel } from './model.ts';
 import { nearest } from './nearest.ts';
 import type { Run } from './run.ts';
 
@@ -68,10 +69,10 @@ function describeFigure({ listed, state }: NonNullable<ReturnType<typeof figureO
 async function describeModel(file: string, values: Values): Promise<Found> {
   if (values.state !== undefined) throw usageError('--state is for figures; a model has none.', 'Leave it out.');
   const bytes = await readInput(file);
-  const format = formatOf(bytes, file);
+  const format = fileFormat(bytes, file);
   if (format !== 'GLB' && format !== 'glTF') {
     throw new HandlebodyError('file-not-glb', {
-      message: `"${file}" is ${format === 'OBJ' ? 'an OBJ' : 'a PLY'} model, and pages show GLB.`,
+      message: `"${file}" is ${format === 'PLY' ? 'a' : 'an'} ${format} model, and pages show GLB.`,
       remedy: 'Bake it with "handlebody bake", which makes a GLB of it, and embed that.',
     });
   }

@@ -13,6 +13,8 @@ An error says what is wrong, what to do about it and its stable code on standard
 remedy, culprit? } } on standard output. Progress and warnings go to standard error. Output is read back before it is put
 in place, written whole or not at all, and the same input gives the same bytes.`;
 
+const READING = `  --strict             refuse an OBJ, PLY, STL or OFF that contradicts its format, where else a warning says what was passed over`;
+
 const WRITING = `  -o, --output FILE    where to write; an older file is replaced, the input itself only with --force; - is standard output, and
                        what is said goes to standard error then
   -f, --force          let the output replace an input`;
@@ -24,7 +26,7 @@ const COMMON = `  --json               print one JSON object on standard output
 export const HELP: Record<string, string> = {
   '': `Deforms shapes by scattered interpolation.
 
-  handlebody bake MODEL.(glb|gltf|obj|ply) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
+  handlebody bake MODEL.(glb|gltf|obj|ply|stl|off) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
   handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb [--json]
   handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb [--json]
   handlebody inspect FILE [--json]
@@ -36,7 +38,7 @@ ${EXIT_CODES}`,
 
   bake: `Computes a model's interior distances and writes it with them: once, whatever handles it gets later.
 
-  handlebody bake MODEL.(glb|gltf|obj|ply) -o BODY.glb
+  handlebody bake MODEL.(glb|gltf|obj|ply|stl|off) -o BODY.glb
 
   --centers N          how many centers the deformation may bend at (200)
   --distance METHOD    fast-marching (the default), heat, mean-value or euclidean
@@ -44,6 +46,7 @@ ${EXIT_CODES}`,
   --resolution N       voxels along the longest side, 8 to 512 (96)
   --spheres PACKING    how spheres fill the volume: skeleton (the default) or tree
   --max-spheres N      at most so many spheres (120)
+${READING}
 ${WRITING}
 ${COMMON}
 
@@ -68,9 +71,10 @@ HANDLES.json, in the model's own units after its nodes' transforms:
     ],
     "relativeWidth": 2, "smoothness": "auto" }
 
-A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ and PLY, in the order of the file) or at
-any point inside, and goes to "to". "rotation" (a quaternion x, y, z, w) and "scale" are kept free where neither is given. The output is
-no longer the shape that was baked, and carries no interior distances. A skinned model's rest shape is deformed, before skinning.
+A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ, PLY and OFF, in the order of the
+file; in STL, in the order in which places come first) or at any point inside, and goes to "to". "rotation" (a quaternion x, y, z, w) and
+"scale" are kept free where neither is given. The output is no longer the shape that was baked, and carries no interior distances. A
+skinned model's rest shape is deformed, before skinning.
 
 ${EXIT_CODES}`,
 
@@ -103,10 +107,11 @@ A figure is named as in the site's embed.html. The page holds the program, the s
 
 ${EXIT_CODES}`,
 
-  inspect: `Tells what is in a model: its surface, its baked body, its pose spaces. Any GLB, glTF, OBJ or PLY will do.
+  inspect: `Tells what is in a model: its surface, its baked body, its pose spaces. Any GLB, glTF, OBJ, PLY, STL or OFF will do.
 
   handlebody inspect FILE
 
+${READING}
 ${COMMON}
 
 ${EXIT_CODES}`,

@@ -11,10 +11,10 @@ import type { Report } from './report.ts';
 import type { Run } from './run.ts';
 
 /** `handlebody inspect`: what is in a file. */
-export async function inspectCommand({ words, report }: Run): Promise<void> {
+export async function inspectCommand({ values, words, report }: Run): Promise<void> {
   const file = theFile('inspect', words, 'a file to look at');
   const bytes = await readInput(file);
-  const { document, format } = await readModel(bytes, file, report, { pictures: 'optional' });
+  const { document, format } = await readModel(bytes, file, report, { pictures: 'optional', strict: values.strict === true });
   const surface = describeSurface(document);
   const body = await describeBodyOf(document, report);
   const poseSpaces = describePoseSpaces(document, report);
@@ -44,16 +44,26 @@ function describeSurface(document: Document) {
   };
 }
 
-/** In the scene's units, whatever the positions are relative to. */
-function boundsOf({ positions, origin = [0, 0, 0] }: Mesh): { low: number[]; high: number[] } | undefined {
+/** The box, in the scene's units, of what triangles use; of a cloud, of all. Throws 'mesh-not-finite': a box of other things than numbers is none. */
+function boundsOf({ positions, triangles, origin = [0, 0, 0] }: Mesh): { low: number[]; high: number[] } | undefined {
   if (positions.length === 0) return undefined;
   const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
-  for (let i = 0; i < positions.length; i++) {
-    const axis = i % 3;
-    const x = (positions[i] as number) + (origin[axis] as number);
-    low[axis] = Math.min(low[axis] as number, x);
-    high[axis] = Math.max(high[axis] as number, x);
-  }
+  const widen = (vertex: number) => {
+    for (let axis = 0; axis < 3; axis++) {
+      const x = (positions[3 * vertex + axis] as number) + (origin[axis] as number);
+      if (!Number.isFinite(x)) {
+        throw new HandlebodyError('mesh-not-finite', {
+          message: `Vertex ${vertex} has a coordinate that is ${x}.`,
+          remedy: 'Export the model again; a glTF validator says more.',
+          culprit: { kind: 'vertex', index: vertex },
+        });
+      }
+      low[axis] = Math.min(low[axis] as number, x);
+      high[axis] = Math.max(high[axis] as number, x);
+    }
+  };
+  if (triangles && triangles.length > 0) for (let i = 0; i < triangles.length; i++) widen(triangles[i] as number);
+  else for (let vertex = 0; vertex < positions.length / 3; vertex++) widen(vertex);
   return { low, high };
 }
 

@@ -2,44 +2,41 @@
 import path from 'node:path';
 import type { Document } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { meshDocument, readGlb, readGltf, readObj, readPly, writeGlb } from '../assets/index.ts';
-import { looksLikeGltf } from '../assets/open-unusual.ts';
+import { type FileFormat, fileFormat } from '../assets/file-format.ts';
+import { meshDocument, readGlb, readGltf, readObj, readOff, readPly, readStl, writeGlb } from '../assets/index.ts';
 import { filesBeside } from './files-beside.ts';
 import type { Report } from './report.ts';
 
-type ModelFormat = 'GLB' | 'glTF' | 'OBJ' | 'PLY';
-
 interface Model {
   readonly document: Document;
-  readonly format: ModelFormat;
+  readonly format: FileFormat;
 }
 
-/** By its first bytes, or by its name for OBJ, which has no mark. */
-export function formatOf(bytes: Uint8Array, name: string): ModelFormat {
-  const head = String.fromCharCode(...bytes.subarray(0, 4));
-  if (head === 'glTF') return 'GLB';
-  if (/^ply[\r\n]/.test(head)) return 'PLY';
-  if (/\.gltf$/i.test(name) || looksLikeGltf(bytes)) return 'glTF';
-  return /\.obj$/i.test(name) ? 'OBJ' : /\.ply$/i.test(name) ? 'PLY' : 'GLB';
+interface ModelOptions {
+  /** 'optional', for who only looks at a model: an image that is missing is a warning. */
+  readonly pictures?: 'needed' | 'optional';
+  /** Refuses what readers of OBJ, PLY, STL and OFF pass over otherwise. */
+  readonly strict?: boolean;
 }
+
+/** Readers of the formats that hold a mesh and nothing else. */
+const MESH_READERS = { OBJ: readObj, PLY: readPly, STL: readStl, OFF: readOff };
 
 /**
- * Reads a model, with the files that it names and that lie beside it; `report` is warned of what was changed or gets lost. With `pictures`
- * 'optional', for who only looks at a model, an image that is missing is a warning.
- *
- * Throws 'file-*' errors that name the file.
+ * Reads a model, with the files that it names and that lie beside it; `report` is warned of what was passed over, was changed or gets
+ * lost. Throws 'file-*' errors that name the file.
  */
 export async function readModel(
   bytes: Uint8Array,
   name: string,
   report?: Report,
-  { pictures = 'needed' }: { pictures?: 'needed' | 'optional' } = {},
+  { pictures = 'needed', strict = false }: ModelOptions = {},
 ): Promise<Model> {
-  const format = formatOf(bytes, name);
+  const format = fileFormat(bytes, name);
   try {
-    if (format === 'OBJ' || format === 'PLY') {
-      const mesh = format === 'OBJ' ? readObj(bytes) : readPly(bytes);
-      for (const message of mesh.warnings) report?.warn({ code: 'left-out', message });
+    if (format !== 'GLB' && format !== 'glTF') {
+      const mesh = MESH_READERS[format](bytes, { strict });
+      for (const { code, message, remedy } of mesh.warnings) report?.warn({ code, message, remedy });
       return { document: meshDocument(mesh, path.basename(name, path.extname(name))), format };
     }
     const onMissingPicture = pictures === 'needed' ? undefined : (error: HandlebodyError) => report?.warn(error);

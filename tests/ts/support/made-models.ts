@@ -135,6 +135,10 @@ export const FEATURES: Readonly<Record<string, (seed: number) => MadeModel>> = {
     const { indices: _, ...rest } = sheet(seed, { mode: 0 });
     return one(seed, rest);
   },
+};
+
+/** Those in which something moves what is stored. */
+export const STEERED: Readonly<Record<string, (seed: number) => MadeModel>> = {
   'morph targets with weights, of the node': (seed) => morphed(seed, 'node'),
   'morph targets with weights, of the mesh': (seed) => morphed(seed, 'mesh'),
   'a skin whose joints agree': (seed) => skinned(seed, 'agreeing'),

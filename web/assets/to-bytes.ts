@@ -1,0 +1,43 @@
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
+
+/** A file's bytes: a buffer, or any view of one (a typed array, a `DataView`, Node's `Buffer`), of which the part that it shows counts. */
+export type FileBytes = ArrayBufferLike | ArrayBufferView;
+
+/** What people give instead, and how it becomes bytes. */
+const REMEDIES: Record<string, string> = {
+  string: 'Give its bytes: new TextEncoder().encode(text), or what fetch(…).arrayBuffer() and readFile(…) give.',
+  Blob: 'Give await blob.arrayBuffer().',
+  File: 'Give await file.arrayBuffer().',
+  Response: 'Give await response.arrayBuffer().',
+  Promise: 'Await it first.',
+  Array: 'Give Uint8Array.from(array).',
+};
+
+/**
+ * The bytes of a file, without a copy where the memory is the caller's alone. Bytes that other threads may write are copied, so that they
+ * do not change while they are read.
+ *
+ * Throws 'file-not-bytes' for anything else, naming what it is.
+ */
+export function toBytes(given: unknown): Uint8Array {
+  // By its name: a buffer of another window is no instance of this one's class.
+  const kind = Object.prototype.toString.call(given).slice(8, -1);
+  if (ArrayBuffer.isView(given)) {
+    const bytes = new Uint8Array(given.buffer, given.byteOffset, given.byteLength);
+    return isShared(given.buffer) ? bytes.slice() : bytes;
+  }
+  if (kind === 'ArrayBuffer') return new Uint8Array(given as ArrayBuffer);
+  if (kind === 'SharedArrayBuffer') return new Uint8Array(given as SharedArrayBuffer).slice();
+  const name = typeof given === 'string' ? 'string' : kind;
+  throw new HandlebodyError('file-not-bytes', {
+    message: `A file’s bytes are wanted, and ${describe(given, name)} is given.`,
+    remedy: REMEDIES[name] ?? 'Give an ArrayBuffer, a typed array, a DataView or a Buffer.',
+  });
+}
+
+const isShared = (buffer: ArrayBufferLike) => Object.prototype.toString.call(buffer) === '[object SharedArrayBuffer]';
+
+function describe(given: unknown, name: string): string {
+  if (given === null || given === undefined) return String(given);
+  return `${/^[aeiou]/i.test(name) ? 'an' : 'a'} ${name}`;
+}
