@@ -36,6 +36,24 @@ const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string
     'The triangles do not tell inside from outside; what they enclose as a shell of voxels was taken.',
     'Close the gaps and make the faces agree, for an inside that is exact.',
   ],
+  'vertices-unused': ({ count, at }) => [
+    `Vertices that are no part of the surface, since nothing with an area uses them: ${count}, the farthest at ${at}. They set neither box nor grid, and move as the nearest inside does.`,
+    'Remove them in a modeling program, or leave them.',
+  ],
+  'triangles-flat': ({ count }) => [
+    `Triangles without area were passed over: ${count}.`,
+    'Merge vertices that share a place in a modeling program, or leave them.',
+  ],
+  'triangles-doubled': ({ count }) => [
+    `Triangles that are there more than once, as they are or turned round, were taken once: ${count} too many.`,
+    'Remove doubled faces in a modeling program, or leave them.',
+  ],
+  'voxels-few': ({ count, value }) => [
+    `The inside is only ${count} ${count === 1 ? 'voxel' : 'voxels'}: too few to tell distances inside it.`,
+    value > 0
+      ? `Bake with a resolution of ${value}.`
+      : 'Make thin parts thicker, or bake parts that are far apart one by one; give a voxel volume smaller voxels.',
+  ],
 };
 
 /** Reports the warnings from number `told` on; returns how many there are. */
