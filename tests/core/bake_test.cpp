@@ -235,8 +235,10 @@ TEST_CASE("a grid too coarse for the gap between two legs says where, and a reso
 }
 
 TEST_CASE("a closed surface that crosses the grid's lines too often to keep them is voxelized by winding numbers") {
-  // Ten plates in one place, a voxel thick: 20 crossings of each of 262,144 lines along x.
-  const MadeMesh mesh = joined(std::vector<MadeMesh>(10, made_box({1. / 512, 1, 1}, {1, 1, 1})));
+  // Ten plates, each a little smaller than the one around it, a voxel thick: 20 crossings of each of 262,144 lines along x.
+  std::vector<MadeMesh> plates;
+  for (int p = 0; p < 10; ++p) plates.push_back(box(Vector3(1e-6 * p, 0, 0), {1. / 512 - 2e-6 * p, 1, 1}, {1, 1, 1}));
+  const MadeMesh mesh = joined(plates);
   const Baked baked = bake(mesh.positions, mesh.triangles, small(512));
   CHECK(baked.volume() == doctest::Approx(1. / 512));
 }
@@ -259,7 +261,9 @@ TEST_CASE("a part without volume bakes, with a warning that says where; so do fa
   degenerate.bottomRows(3) << 0, 0, 1, 2, 2, 2, 0, 5, 0;
   const Baked tolerated = bake(bar.positions, degenerate, small());
   CHECK(tolerated.volume() == doctest::Approx(4));
-  CHECK(tolerated.warnings.empty());
+  REQUIRE(tolerated.find(HB_WARNING_TRIANGLES_FLAT));
+  CHECK(tolerated.find(HB_WARNING_TRIANGLES_FLAT)->count == 3);
+  CHECK(tolerated.warnings.size() == 1);
 }
 
 TEST_CASE("a dense point cloud of a surface or a solid has the inside of the shape; a sparse one is refused") {
@@ -395,6 +399,138 @@ TEST_CASE("whatever the triangles, a bake ends in a body or an error (seeds 1 to
       CHECK((baked.code == HB_ERROR_MESH_NO_INTERIOR || baked.code == HB_ERROR_CLOUD_TOO_SPARSE ||
              baked.code == HB_ERROR_MESH_ZERO_EXTENT || baked.code == HB_ERROR_MESH_NO_TRIANGLES ||
              baked.code == HB_ERROR_MESH_OPEN || baked.code == HB_ERROR_MESH_NOT_CONNECTED));
+    }
+  }
+}
+
+TEST_CASE("vertices that nothing uses leave no trace in a bake, wherever they are in the list (seeds 1 to 24)") {
+  const MadeMesh body = box({0.3, -1, 2}, {3, 1, 1}, {6, 3, 3});
+  const Baked plain = bake(body.positions, body.triangles, small());
+  REQUIRE(plain.code == HB_OK);
+  for (unsigned seed = 1; seed <= 24; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const Index strays = 1 + random() % 40, vertices = body.positions.rows();
+    std::vector<std::uint32_t> order;  // the body's vertices in their order, `vertices` for a stray
+    for (Index v = 0; v < vertices; ++v) order.push_back(static_cast<std::uint32_t>(v));
+    const std::size_t where = seed % 3 == 0 ? 0 : seed % 3 == 1 ? order.size() / 2 : order.size();
+    order.insert(order.begin() + static_cast<std::ptrdiff_t>(where), strays, static_cast<std::uint32_t>(vertices));
+    Points positions(std::ssize(order), 3);
+    std::vector<std::uint32_t> number(static_cast<std::size_t>(vertices));
+    const double far = std::pow(10., static_cast<double>(random() % 30));
+    for (std::size_t v = 0; v < order.size(); ++v) {
+      if (order[v] < vertices) {
+        positions.row(static_cast<Index>(v)) = body.positions.row(order[v]);
+        number[order[v]] = static_cast<std::uint32_t>(v);
+      } else {
+        positions.row(static_cast<Index>(v)) << far * (random() % 1000 / 500. - 1.0005), -far, far * (random() % 3);
+      }
+    }
+    const Triangles triangles = body.triangles.unaryExpr([&](std::uint32_t v) { return number[v]; });
+    const Baked baked = bake(positions, triangles, small());
+    REQUIRE(baked.code == HB_OK);
+    CHECK(baked.body.normalization.center == plain.body.normalization.center);
+    CHECK(baked.body.normalization.diagonal == plain.body.normalization.diagonal);
+    CHECK(baked.body.domain.grid().origin == plain.body.domain.grid().origin);
+    CHECK(baked.body.domain.grid().dims == plain.body.domain.grid().dims);
+    CHECK(baked.body.domain.voxels() == plain.body.domain.voxels());
+    CHECK(baked.body.distances == plain.body.distances);
+    CHECK(baked.body.distance_scale == plain.body.distance_scale);
+    REQUIRE(baked.body.centers.size() == plain.body.centers.size());
+    for (std::size_t c = 0; c < baked.body.centers.size(); ++c) CHECK(baked.body.centers[c] == number[plain.body.centers[c]]);
+    REQUIRE(baked.body.spheres.size() == plain.body.spheres.size());
+    for (std::size_t s = 0; s < baked.body.spheres.size(); ++s) CHECK(baked.body.spheres[s].center == plain.body.spheres[s].center);
+    REQUIRE(baked.warnings.size() == 1);
+    CHECK(baked.warnings[0].code == HB_WARNING_VERTICES_UNUSED);
+    CHECK(baked.warnings[0].count == strays);
+    CHECK(order[static_cast<std::size_t>(baked.warnings[0].vertex)] == vertices);
+  }
+}
+
+TEST_CASE("a vertex in the place of one that counts is that one, split; what no float holds is refused by its number") {
+  MadeMesh body = made_box({2, 1, 1}, {4, 2, 2});
+  const Index vertices = body.positions.rows();
+  body.positions.conservativeResize(vertices + 1, 3);
+  body.positions.row(vertices) = body.positions.row(3);
+  CHECK(bake(body.positions, body.triangles, small()).warnings.empty());
+  body.positions.row(vertices).setConstant(1e39);
+  auto begun = Bake::begin(body.positions, body.triangles, small());
+  REQUIRE_FALSE(begun);
+  CHECK(begun.error().code == HB_ERROR_MESH_NOT_FINITE);
+  CHECK(begun.error().culprit == HB_CULPRIT_VERTEX);
+  CHECK(begun.error().index == vertices);
+}
+
+TEST_CASE("the vertices of a solid count, though no triangle of its surface uses them") {
+  MadeMesh body = made_box({2, 1, 1}, {4, 2, 2});
+  const Index vertices = body.positions.rows();
+  body.positions.conservativeResize(vertices + 2, 3);
+  body.positions.bottomRows(2) << 1, 0.5, 0.5, 9, 9, 9;
+  BakeOptions options = small();
+  options.centers = 1000;
+  options.used.assign(static_cast<std::size_t>(vertices + 2), 1);
+  options.used.back() = 0;
+  const Baked baked = bake(body.positions, body.triangles, options);
+  CHECK(std::ssize(baked.body.centers) == vertices + 1);
+  CHECK(baked.body.normalization.diagonal == doctest::Approx(std::sqrt(6)));
+  REQUIRE(baked.find(HB_WARNING_VERTICES_UNUSED));
+  CHECK(baked.find(HB_WARNING_VERTICES_UNUSED)->vertex == vertices + 1);
+}
+
+TEST_CASE("doubled faces, flat ones and a double side bake to the body without them, by every distance") {
+  const MadeMesh body = box({-1, 0, 0}, {3, 1, 1}, {6, 3, 3});
+  for (const DistanceMethod method :
+       {DistanceMethod::fast_marching, DistanceMethod::euclidean, DistanceMethod::heat, DistanceMethod::mean_value}) {
+    CAPTURE(static_cast<int>(method));
+    BakeOptions options = small();
+    options.method = method;
+    const Baked plain = bake(body.positions, body.triangles, options);
+    Triangles some(body.triangles.rows() + 4, 3), twice(2 * body.triangles.rows(), 3);
+    some << body.triangles, body.triangles.row(5), body.triangles.row(9), 3, 7, 3, 2, 2, 2;
+    std::swap(some(body.triangles.rows() + 1, 0), some(body.triangles.rows() + 1, 1));
+    twice << body.triangles, body.triangles;
+    twice.bottomRows(body.triangles.rows()).col(0).swap(twice.bottomRows(body.triangles.rows()).col(1));
+    for (const Triangles& triangles : {some, twice}) {
+      const Baked baked = bake(body.positions, triangles, options);
+      REQUIRE(baked.code == HB_OK);
+      CHECK(baked.body.domain.voxels() == plain.body.domain.voxels());
+      CHECK(baked.body.centers == plain.body.centers);
+      CHECK(baked.body.distances == plain.body.distances);
+      REQUIRE(baked.find(HB_WARNING_TRIANGLES_DOUBLED));
+      CHECK(baked.find(HB_WARNING_TRIANGLES_DOUBLED)->count == (triangles.rows() == some.rows() ? 2 : body.triangles.rows()));
+      CHECK_FALSE(baked.find(HB_WARNING_ORIENTATION_MIXED));
+    }
+  }
+}
+
+TEST_CASE("of two boxes with a wall between them, one turned inside out is told, and both are inside") {
+  const MadeMesh left = made_box({1, 1, 1}, {2, 2, 2});
+  for (const bool turned : {false, true}) {
+    CAPTURE(turned);
+    MadeMesh right = box({1, 0, 0}, {1, 1, 1}, {2, 2, 2});
+    if (turned) right.triangles.col(1).swap(right.triangles.col(2));
+    const MadeMesh both = joined({left, right});
+    const Baked baked = bake(both.positions, both.triangles, small());
+    CHECK(baked.volume() == doctest::Approx(2));
+    REQUIRE(static_cast<bool>(baked.find(HB_WARNING_ORIENTATION_MIXED)) == turned);
+    if (turned) CHECK(std::abs(baked.find(HB_WARNING_ORIENTATION_MIXED)->count - right.triangles.rows()) <= 16);
+  }
+}
+
+TEST_CASE("a handful of voxels is told, with a resolution at which it is none; more are not") {
+  for (const double length : {4., 7.3, 12.1, 30.7, 55.}) {
+    for (const int resolution : {8, 11, 16, 24}) {
+      CAPTURE(length);
+      CAPTURE(resolution);
+      const MadeMesh rod = box({0.1, 0.2, 0.3}, {length, 1, 1.1}, {8, 1, 1});
+      const Baked baked = bake(rod.positions, rod.triangles, small(resolution));
+      if (baked.code == HB_ERROR_MESH_NO_INTERIOR) continue;
+      const BakeWarning* told = baked.find(HB_WARNING_VOXELS_FEW);
+      CHECK(static_cast<bool>(told) == (baked.body.domain.size() < 64));
+      if (!told) continue;
+      CHECK(told->count == baked.body.domain.size());
+      REQUIRE(told->value > resolution);
+      CHECK_FALSE(bake(rod.positions, rod.triangles, small(static_cast<int>(told->value))).find(HB_WARNING_VOXELS_FEW));
     }
   }
 }

@@ -216,6 +216,84 @@ TEST_CASE("the order of the triangles does not matter, nor that many meet at one
   CHECK(from_lowest(back) == from_lowest(right));
 }
 
+TEST_CASE("a closed part that faces inward is turned where it lies in no other, and stays a cavity where it does") {
+  const test::MadeMesh outer = test::made_box({4, 4, 4}, {2, 2, 2});
+  test::MadeMesh inverted = test::made_box({1, 1, 1}, {1, 1, 1});
+  for (Index t = 0; t < inverted.triangles.rows(); ++t) turn_round(inverted.triangles, t);
+  const test::MadeMesh sheet = triangle_band(8, false);
+  struct Place {
+    Eigen::RowVector3d by;
+    bool cavity;
+  };
+  for (const auto& [by, cavity] : {Place{{1.3, 1.2, 1.1}, true}, Place{{6, 0, 0}, false}, Place{{3.5, 1.1, 1.2}, false}}) {
+    for (const bool open : {false, true}) {  // with an open part elsewhere, the same
+      CAPTURE(by);
+      CAPTURE(open);
+      test::MadeMesh mesh = both_meshes(outer, inverted, by);
+      if (open) mesh = both_meshes(mesh, sheet, {20, 0, 0});
+      Triangles triangles = mesh.triangles;
+      const Orientation found = orient_consistently(mesh.positions, triangles);
+      CHECK(found.closed == !open);
+      CHECK_FALSE(found.inside_out);
+      CHECK(found.turned == (cavity ? 0 : 12));
+      const Triangles closed = triangles.topRows(outer.triangles.rows() + 12);
+      CHECK(enclosed_volume(mesh.positions, closed) == doctest::Approx(cavity ? 63 : 65));
+    }
+  }
+}
+
+TEST_CASE("the seams of two sheets that lie on each other are no neighbors; those of two halves that face apart are") {
+  // Two strips begin at one edge and run the same way along it: to one side, nearly in one place, or to both.
+  for (const double angle : {0., 10., 20., 60., 120., 180.}) {
+    CAPTURE(angle);
+    const double radians = angle * 3.141592653589793 / 180;
+    Points positions(6, 3);
+    positions << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, std::cos(radians), 0, std::sin(radians), std::cos(radians), 1,
+        std::sin(radians);
+    Triangles triangles(4, 3);
+    triangles << 0, 1, 3, 0, 3, 2, 0, 1, 5, 0, 5, 4;
+    CHECK(orient_consistently(positions, triangles).turned == (angle < 30 ? 0 : 2));
+  }
+}
+
+TEST_CASE("a part whose seam is apart by a rounding to floats is closed for this: it is turned, or stays a cavity") {
+  for (const bool apart : {false, true}) {
+    for (const bool in : {false, true}) {
+      CAPTURE(apart);
+      CAPTURE(in);
+      test::MadeMesh box = test::made_box({1, 1, 1}, {2, 2, 2});
+      for (Index t = 0; t < box.triangles.rows(); ++t) turn_round(box.triangles, t);
+      if (apart) {  // the triangles on one half of a side get corners of their own
+        const Index vertices = box.positions.rows();
+        box.positions.conservativeResize(2 * vertices, 3);
+        box.positions.bottomRows(vertices) = box.positions.topRows(vertices).array() + 1e-8;
+        box.triangles.topRows(5).array() += static_cast<std::uint32_t>(vertices);
+      }
+      const test::MadeMesh outer = test::made_box({4, 4, 4}, {1, 1, 1});
+      const test::MadeMesh mesh = both_meshes(outer, box, {in ? 1. : 9., 1, 1});
+      Triangles triangles = mesh.triangles;
+      const Orientation found = orient_consistently(mesh.positions, triangles);
+      CHECK(found.closed == !apart);
+      CHECK(found.turned == (in ? 0 : box.triangles.rows()));
+    }
+  }
+}
+
+TEST_CASE("a mesh is inside out where all that lies in nothing else faces inward, however large the rest is") {
+  test::MadeMesh large = test::made_box({4, 4, 4}, {1, 1, 1});
+  const test::MadeMesh small = test::made_box({1, 1, 1}, {1, 1, 1});
+  for (Index t = 0; t < large.triangles.rows(); ++t) turn_round(large.triangles, t);
+  const test::MadeMesh hollow = both_meshes(large, small, {1, 1, 1}), mixed = both_meshes(large, small, {9, 1, 1});
+  Triangles triangles = hollow.triangles;
+  CHECK(orient_consistently(hollow.positions, triangles).inside_out);
+  CHECK(triangles == hollow.triangles);
+  triangles = mixed.triangles;
+  const Orientation found = orient_consistently(mixed.positions, triangles);
+  CHECK_FALSE(found.inside_out);
+  CHECK(found.turned == 12);
+  CHECK(enclosed_volume(mixed.positions, triangles) == doctest::Approx(65));
+}
+
 TEST_CASE("nothing is closed and encloses nothing") {
   Triangles none(0, 3);
   const Orientation found = orient_consistently(Points(0, 3), none);

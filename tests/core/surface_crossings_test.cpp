@@ -53,7 +53,8 @@ TEST_CASE("a closed surface winds about the voxels that its crossings enclose, a
         CHECK(winding == 0);
       }
       if (axis > 0) continue;
-      for (const std::uint32_t v : enclosed_voxels(grid, crossings)) CHECK(std::abs(tree.winding_number(grid.center(v))) > .5);
+      for (const std::uint32_t v : enclosed_voxels(grid, crossings).voxels)
+        CHECK(std::abs(tree.winding_number(grid.center(v))) > .5);
     }
   }
 }

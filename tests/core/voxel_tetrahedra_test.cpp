@@ -151,3 +151,32 @@ TEST_CASE("surfaces and resolutions that cannot be are refused") {
   bad.simplices(0, 1) = 3;
   CHECK(make_voxel_tetrahedra(bad, 10).error().code == HB_ERROR_MESH_INDEX_OUT_OF_RANGE);
 }
+
+TEST_CASE("vertices that no triangle uses, copies of faces and faces without area change no tetrahedron (seeds 1 to 20)") {
+  const test::MadeMesh box = test::made_box({2, 1, 1}, {4, 2, 2});
+  const auto plain = make_voxel_tetrahedra({box.positions, box.triangles}, 12);
+  REQUIRE(plain);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const Index vertices = box.positions.rows(), strays = 1 + random() % 3, copies = 1 + random() % 6;
+    Points positions(vertices + strays, 3);
+    positions.topRows(vertices) = box.positions;
+    for (Index v = vertices; v < positions.rows(); ++v)
+      positions.row(v) << std::pow(10., static_cast<double>(random() % 18)), -3, static_cast<double>(random() % 9);
+    Triangles triangles(box.triangles.rows() + copies, 3);
+    triangles.topRows(box.triangles.rows()) = box.triangles;
+    for (Index t = box.triangles.rows(); t < triangles.rows(); ++t) {
+      triangles.row(t) = box.triangles.row(random() % box.triangles.rows());
+      if (random() % 2) std::swap(triangles(t, 0), triangles(t, 1));
+    }
+    const auto made = make_voxel_tetrahedra({positions, triangles}, 12);
+    REQUIRE(made);
+    CHECK(made->mesh.positions == plain->mesh.positions);
+    CHECK(made->mesh.simplices == plain->mesh.simplices);
+    for (std::size_t v = 0; v < made->corners.size(); ++v) {
+      for (const double part : made->coordinates[v]) CHECK((part >= 0 && part <= 1));
+      if (v < plain->corners.size()) CHECK(made->corners[v] == plain->corners[v]);
+    }
+  }
+}

@@ -78,7 +78,7 @@ describe('shapes', () => {
     expect(enclosedVolume(solid.positions, triangles)).toBeCloseTo(36, 9);
     const { body, warnings } = await baked(solid);
     expect(warnings).toEqual([]);
-    expect(body.mesh.positions).toBe(solid.positions);
+    expect(body.mesh.positions).toEqual(solid.positions);
     expect(body.mesh.triangles).toEqual(triangles);
     expect([body.version, body.distance]).toEqual([1, 'fast-marching']);
     expect(voxelVolume(body)).toBeCloseTo(36, 6);
@@ -112,7 +112,7 @@ describe('shapes', () => {
     const cloud = { positions: Float32Array.from(dense.positions) };
     const { body, warnings } = await baked(cloud);
     expect(warnings).toEqual([]);
-    expect(body.mesh.positions).toBe(cloud.positions);
+    expect(body.mesh.positions).toEqual(cloud.positions);
     expect(body.mesh.triangles.length).toBe(0);
     expect(voxelVolume(body)).toBeGreaterThan(15.9);
     expect(voxelVolume(body)).toBeLessThan(21);
@@ -132,7 +132,7 @@ describe('shapes', () => {
     const { body, warnings } = await baked(soup);
     expect(warnings.map(({ code }) => code)).toEqual(['orientation-mixed']);
     expect(body.voxels).toEqual((await baked(BAR)).body.voxels);
-    expect(body.mesh).toBe(soup);
+    expect(body.mesh).toEqual(soup);
   });
 
   it.each(['fast-marching', 'heat', 'mean-value', 'euclidean'] as const)('measures by %s', async (distance) => {

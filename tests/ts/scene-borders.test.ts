@@ -133,6 +133,25 @@ describe('a mesh far from the origin', () => {
     expect(highest).toBeLessThan(1);
   });
 
+  it.each([
+    ['a surface', (positions: Float64Array, triangles: number[]) => ({ positions, triangles: Uint32Array.from(triangles) })],
+    ['a cloud', (positions: Float64Array) => ({ positions })],
+    ['a solid', (positions: Float64Array) => ({ positions, tetrahedra: Uint32Array.from(CUBE_TETRAHEDRA) })],
+  ])('of doubles is baked as it would be at the origin: %s', async (_, make) => {
+    const mesh = new BoxGeometry(2, 1, 1, 6, 3, 3);
+    const corners = Float64Array.from({ length: 24 }, (_, i) => (Math.floor(i / 3) >> (i % 3)) & 1);
+    const near = _ === 'a solid' ? corners : Float64Array.from(mesh.getAttribute('position').array);
+    const away = near.map((x, i) => x + far.getComponent(i % 3));
+    const options = { centers: 8, resolution: 16, spheres: 8, onWarning: () => {} };
+    const triangles = Array.from(mesh.index?.array ?? []);
+    const [one, other] = [await hb.bake(make(near, triangles), options), await hb.bake(make(away, triangles), options)];
+    expect([one.mesh.origin, other.mesh.origin?.length]).toEqual([undefined, 3]);
+    expect(other.voxels).toEqual(one.voxels);
+    // What a double of that size is rounded to.
+    for (let i = 0; i < away.length; i++)
+      expect((other.mesh.positions[i] as number) + (other.mesh.origin?.[i % 3] as number)).toBeCloseTo(away[i] as number, 9);
+  });
+
   it('says when the stored floats have lost the shape', () => {
     const mesh = box();
     mesh.geometry.translate(far.x, far.y, far.z);
@@ -158,6 +177,8 @@ describe('a mesh far from the origin', () => {
     expect(positions[0]).toBe(1e7);
   });
 });
+
+const CUBE_TETRAHEDRA = [0, 1, 3, 7, 0, 1, 5, 7, 0, 2, 3, 7, 0, 2, 6, 7, 0, 4, 5, 7, 0, 4, 6, 7];
 
 describe('deformations of one mesh', () => {
   it('put back what was there, in whatever order they end (all orders of four)', () => {

@@ -80,10 +80,11 @@ async function errorOf(work: Promise<unknown>): Promise<HandlebodyError> {
 }
 
 describe('bakeInWorker', () => {
-  it('gives what the worker baked, with the mesh that was given', async () => {
+  it('gives what the worker baked, with a mesh of its own like the one that was given', async () => {
     const body = await bakeInWorker(MESH, { centers: 3, worker: makeWorker(fakeBake) });
     expect(body).toEqual(await fakeBake(MESH, { centers: 3 }));
-    expect(body.mesh).toBe(MESH);
+    expect(body.mesh).toEqual(MESH);
+    expect(body.mesh.positions).not.toBe(MESH.positions);
   });
 
   it('leaves the caller its arrays, those on part of a buffer too', async () => {
@@ -101,6 +102,26 @@ describe('bakeInWorker', () => {
     expect(seen).toEqual([48, ...MESH.positions]);
     expect(shared.length).toBe(100);
     expect(mesh.triangles.length).toBe(12);
+  });
+
+  it.each([
+    ['overwritten', (mesh: Mesh) => mesh.positions.fill(7)],
+    ['handed to another thread', (mesh: Mesh) => structuredClone(null, { transfer: [mesh.positions.buffer as ArrayBuffer] })],
+  ])('takes the mesh as it was when it was called, though it is %s before a worker is there', async (_, change) => {
+    const mesh = { positions: MESH.positions.slice(), triangles: MESH.triangles.slice() };
+    const density = [1, 2, 3, 4];
+    const seen: unknown[] = [];
+    const work = bakeInWorker(mesh, {
+      density,
+      worker: makeWorker(async (posted, options) => {
+        seen.push(structuredClone(posted), options.density);
+        return fakeBake(posted, options);
+      }),
+    });
+    change(mesh);
+    density.fill(9);
+    expect((await work).mesh).toEqual(MESH);
+    expect(seen).toEqual([MESH, [1, 2, 3, 4]]);
   });
 
   it('tells the progress, in order', async () => {
@@ -273,6 +294,16 @@ describe.skipIf(!existsSync(new URL('../../wasm/handlebody.wasm', import.meta.ur
         expect(Math.min(there.weights[v] as number, there.weights[v + 1] as number)).toBeGreaterThan(-1e-6);
       }
       expect([there.measures.holds.bounded, parts.at(-1)]).toEqual([true, 1]);
+    });
+
+    it('weighs the surface as it was when it was called, and leaves it to the caller', async () => {
+      const surface = { positions: Float64Array.from(box.positions), triangles: Uint32Array.from(box.triangles) };
+      const handles: { at: [number, number, number] }[] = [{ at: [0.3, 0.5, 0.5] }, { at: [1.7, 0.5, 0.5] }];
+      const work = weighInWorker({ ...question, surface, handles }, { worker: await weigher() });
+      expect(surface.positions.length).toBe(box.positions.length);
+      surface.positions.fill(7);
+      handles[0]?.at.fill(9);
+      expect(await work).toEqual(await weighInWorker(question, { worker: await weigher() }));
     });
 
     it('throws the solver’s errors through the worker, and what the fallback throws', async () => {

@@ -40,6 +40,7 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
   options.packing = static_cast<handlebody::SpherePacking>(given->packing);
   options.cloud = given->cloud != 0;
   if (given->density != nullptr) options.density.assign(given->density, given->density + vertex_count);
+  if (given->used != nullptr) options.used.assign(given->used, given->used + vertex_count);
   if (given->voxel_count > 0) {
     handlebody::Grid grid;
     grid.spacing = given->spacing;

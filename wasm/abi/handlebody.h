@@ -89,15 +89,16 @@ typedef struct hb_bake_options {
   double spacing;
   const uint32_t* voxels;  /* linear indices i + nx·(j + ny·k), ascending */
   const double* density;   /* vertex_count relative densities of centers, 1e-6 to 1e6, 1 where nothing special is wanted */
+  const uint8_t* used;     /* vertex_count: not 0 for the vertices that count, as those of a solid do; NULL for those that triangles use */
 } hb_bake_options;
 
 /* A warning about a bake that worked. */
 typedef struct hb_bake_warning {
   int32_t code;      /* an hb_warning_code */
   int32_t vertex;    /* its vertex, or -1 */
-  uint32_t count;    /* of triangles, open edges, links or vertices, as the code says */
+  uint32_t count;    /* of triangles, open edges, links, vertices or voxels, as the code says */
   uint32_t placed;   /* 1: `place`, model units, is where it is worst */
-  double value;      /* LIMBS_MERGED: a resolution that would do, or 0; PART_OUTSIDE: how far out, model units */
+  double value;      /* LIMBS_MERGED, VOXELS_FEW: a resolution that would do, or 0; PART_OUTSIDE: how far out, model units */
   double place[3];
 } hb_bake_warning;
 
@@ -170,6 +171,9 @@ HB_API int32_t hb_irbf_share(const hb_irbf* irbf, hb_irbf** shared);
  * Builds and factors the system, and puts every target at rest. Fails with HANDLE_* codes or
  * SYSTEM_SINGULAR and keeps the former handles. */
 HB_API int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count);
+
+/* The body's positions as they were when the object was made, 3 a vertex, model units: where handles on vertices sit. */
+HB_API const double* hb_irbf_positions(const hb_irbf* irbf);
 
 /* 10 numbers per handle: position xyz (model units), quaternion xyzw, scale xyz. Write it in place. */
 HB_API double* hb_irbf_targets(hb_irbf* irbf);

@@ -95,6 +95,10 @@ int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t*
   return done ? HB_OK : fail(done.error());
 }
 
+const double* hb_irbf_positions(const hb_irbf* irbf) {
+  return irbf->irbf->prepared()->body.positions.data();
+}
+
 double* hb_irbf_targets(hb_irbf* irbf) {
   return irbf->irbf->targets();
 }

@@ -29,7 +29,7 @@ int32_t handlebody::fail(const Error& error) {
 extern "C" {
 
 uint32_t hb_abi_version(void) {
-  return 4;
+  return 5;
 }
 
 const hb_error* hb_last_error(void) {

@@ -1,32 +1,83 @@
 /** Turns everything that can be baked into what the solver bakes: a mesh to show and deform, and what is known of its inside. */
 import type { Exports } from './abi.generated.ts';
 import { checkMeshArrays } from './check-mesh.ts';
+import { copied, unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
+import { chooseOrigin } from './origin.ts';
 import type { BakeShape, Mesh, TetrahedralMesh, VoxelVolume } from './types.ts';
 
 interface PreparedShape {
+  /** In arrays of its own: a bake lets events in, and the caller's may change or go to another thread meanwhile. */
   readonly mesh: Mesh;
   readonly cloud: boolean;
   /** The inside, where the shape is a volume. */
   readonly voxels: Uint32Array | undefined;
+  /** Of a solid: 1 for the vertices that its tetrahedra use. */
+  readonly used: Uint8Array | undefined;
 }
 
 const MOST_VOXELS = 64e6;
 
 /** Checks a shape's arrays and makes its mesh. Throws 'invalid-shape', 'mesh-too-large', 'mesh-index-out-of-range' … */
 export function prepareShape(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
+  const prepared = prepare(heap, shape);
+  if ('dimensions' in shape) return aboutOrigin(prepared);
+  const { origin, reading } = shape;
+  const mesh = {
+    ...prepared.mesh,
+    ...(origin && { origin: [...origin] as const }),
+    ...(reading && { reading: structuredClone(reading) }),
+  };
+  return origin ? { ...prepared, mesh } : aboutOrigin({ ...prepared, mesh });
+}
+
+/** Doubles far from the origin keep their shape: they are given about an origin of their own. Floats have nothing more to keep. */
+function aboutOrigin(prepared: PreparedShape): PreparedShape {
+  const { mesh, used } = prepared;
+  const { positions, triangles } = mesh;
+  if (!(positions instanceof Float64Array)) return prepared;
+  const low: [number, number, number] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+  const high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  const widen = (vertex: number) => {
+    for (const axis of [0, 1, 2] as const) {
+      const x = positions[3 * vertex + axis] as number;
+      low[axis] = Math.min(low[axis], x);
+      high[axis] = Math.max(high[axis], x);
+    }
+  };
+  if (triangles.length > 0) for (const vertex of triangles) widen(vertex);
+  else for (let vertex = 0; vertex < positions.length / 3; vertex++) if (!used || used[vertex] === 1) widen(vertex);
+  const origin = chooseOrigin(low, high);
+  if (!origin) return prepared;
+  // The arrays are this function's own by now.
+  for (let i = 0; i < positions.length; i++) positions[i] = (positions[i] as number) - (origin[i % 3] as number);
+  return { ...prepared, mesh: { ...mesh, origin } };
+}
+
+function prepare(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
   if ('dimensions' in shape) return prepareVolume(shape);
   checkSize(heap, shape);
-  if ('tetrahedra' in shape) {
-    checkMeshArrays({ positions: shape.positions, triangles: new Uint32Array() });
-    const triangles = boundaryTriangles(shape);
-    return { mesh: { positions: shape.positions, triangles }, cloud: false, voxels: undefined };
-  }
-  const cloud = !('triangles' in shape);
-  const mesh = cloud ? { positions: shape.positions, triangles: new Uint32Array() } : shape;
+  const cloud = !('triangles' in shape || 'tetrahedra' in shape);
+  const mesh: Mesh = {
+    positions: copied(shape.positions),
+    triangles: 'triangles' in shape ? copied(shape.triangles) : new Uint32Array(),
+  };
   checkMeshArrays(mesh);
-  return { mesh, cloud, voxels: undefined };
+  if (!('tetrahedra' in shape)) return { mesh, cloud, voxels: undefined, used: undefined };
+  const solid = { positions: mesh.positions, tetrahedra: unshared(shape.tetrahedra) };
+  const triangles = boundaryTriangles(solid);
+  return { mesh: { positions: mesh.positions, triangles }, cloud, voxels: undefined, used: verticesOf(solid) };
+}
+
+/** 1 for the vertices of tetrahedra that have a volume. */
+function verticesOf({ positions, tetrahedra }: TetrahedralMesh): Uint8Array {
+  const used = new Uint8Array(positions.length / 3);
+  for (let t = 0; t < tetrahedra.length; t += 4) {
+    const [a = 0, b = 0, c = 0, d = 0] = tetrahedra.subarray(t, t + 4);
+    if (sixVolumes(positions, a, b, c, d) !== 0) for (const vertex of [a, b, c, d]) used[vertex] = 1;
+  }
+  return used;
 }
 
 /** Checks the counts alone: nothing has been copied yet. */
@@ -109,8 +160,9 @@ function withoutPairs(faces: Uint32Array): Uint32Array<ArrayBuffer> {
 }
 
 /** A volume's surface: two triangles for each face between inside and outside. */
-function prepareVolume(volume: VoxelVolume): PreparedShape {
-  const { dimensions, spacing, origin, inside } = volume;
+function prepareVolume(given: VoxelVolume): PreparedShape {
+  const { dimensions, spacing, origin } = given;
+  const inside = unshared(given.inside);
   const [nx, ny, nz] = dimensions;
   const fits = dimensions.length === 3 && dimensions.every((n) => Number.isInteger(n) && n > 0);
   if (!fits || nx * ny * nz > MOST_VOXELS || inside.length !== nx * ny * nz) {
@@ -132,7 +184,7 @@ function prepareVolume(volume: VoxelVolume): PreparedShape {
       remedy: 'Mark the voxels inside with 1.',
     });
   }
-  return { mesh: volumeSurface(volume, voxels), cloud: false, voxels };
+  return { mesh: volumeSurface({ ...given, inside }, voxels), cloud: false, voxels, used: undefined };
 }
 
 function* insideVoxels(inside: ArrayLike<number>): Generator<number> {

@@ -36,29 +36,57 @@ const SENTENCES: Record<WarningCode, (facts: Facts) => readonly [message: string
     'The triangles do not tell inside from outside; what they enclose as a shell of voxels was taken.',
     'Close the gaps and make the faces agree, for an inside that is exact.',
   ],
+  'vertices-unused': ({ count, at }) => [
+    `Vertices that are no part of the surface, since nothing with an area uses them: ${count}, the farthest at ${at}. They set neither box nor grid, and move as the nearest inside does.`,
+    'Remove them in a modeling program, or leave them.',
+  ],
+  'triangles-flat': ({ count }) => [
+    `Triangles without area were passed over: ${count}.`,
+    'Merge vertices that share a place in a modeling program, or leave them.',
+  ],
+  'triangles-doubled': ({ count }) => [
+    `Triangles that are there more than once, as they are or turned round, were taken once: ${count} too many.`,
+    'Remove doubled faces in a modeling program, or leave them.',
+  ],
+  'voxels-few': ({ count, value }) => [
+    `The inside is only ${count} ${count === 1 ? 'voxel' : 'voxels'}: too few to tell distances inside it.`,
+    value > 0
+      ? `Bake with a resolution of ${value}.`
+      : 'Make thin parts thicker, or bake parts that are far apart one by one; give a voxel volume smaller voxels.',
+  ],
 };
 
-/** Reports the warnings from number `told` on; returns how many there are. */
-export function tellWarnings(heap: Heap<Exports>, bake: number, told: number, tell: (warning: BakeWarning) => void): number {
+interface Telling {
+  /** The first that was not told yet. */
+  readonly from: number;
+  /** What the baked positions are relative to. */
+  readonly origin: Vec3 | undefined;
+  readonly tell: (warning: BakeWarning) => void;
+}
+
+/** Reports the warnings that are new; returns how many there are in all. */
+export function tellWarnings(heap: Heap<Exports>, bake: number, { from, origin = [0, 0, 0], tell }: Telling): number {
   const layout = LAYOUT.hb_bake_warning;
   const warnings = heap.scope((scratch) => {
     const out = scratch.reserve(layout.sizeof);
     const read: BakeWarning[] = [];
-    for (let i = told; i < heap.call((e) => e.hb_bake_get_warning(bake, i, out)); i++) read.push(readWarning(heap, out));
+    for (let i = from; i < heap.call((e) => e.hb_bake_get_warning(bake, i, out)); i++) read.push(readWarning(heap, out, origin));
     return read;
   });
   for (const warning of warnings) tell(warning);
-  return told + warnings.length;
+  return from + warnings.length;
 }
 
-function readWarning(heap: Heap<Exports>, from: number): BakeWarning {
+function readWarning(heap: Heap<Exports>, from: number, origin: Vec3): BakeWarning {
   const layout = LAYOUT.hb_bake_warning;
   const [number = 0, vertex = 0, count = 0, placed = 0] = heap.u32(from, 4);
   const code = WARNING_CODES[number as keyof typeof WARNING_CODES];
   const value = heap.f64(from + layout.value, 1)[0] ?? 0;
-  const [x = 0, y = 0, z = 0] = heap.f64(from + layout.place, 3);
+  const [x = 0, y = 0, z = 0] = heap.f64(from + layout.place, 3).map((n, axis) => n + (origin[axis] as number));
+  // Far away the first digits say nothing.
+  const digits = origin.some((n) => n !== 0) ? 9 : 3;
   const at: Vec3 | undefined = placed ? [x, y, z] : undefined;
-  const where = `(${[x, y, z].map((n) => Number(n.toPrecision(3))).join(', ')})`;
+  const where = `(${[x, y, z].map((n) => Number(n.toPrecision(digits))).join(', ')})`;
   const [message, remedy] = SENTENCES[code]({ count, value, at: where });
   return {
     code,

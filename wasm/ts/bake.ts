@@ -20,8 +20,12 @@ const PACKINGS = { skeleton: 0, tree: 1 } as const;
 
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
 export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeOptions): Promise<BodyData> {
-  const { centers, distance, resolution, spheres, packing } = { ...BAKE_DEFAULTS, ...options };
-  throwIfAborted(options.signal);
+  // Read once: from the first pause on, shape and options may be others.
+  const { centers, distance, resolution, spheres, packing, density, signal, onProgress, onWarning } = {
+    ...BAKE_DEFAULTS,
+    ...options,
+  };
+  throwIfAborted(signal);
   for (const [name, value] of Object.entries({ centers, resolution, spheres })) {
     if (!Number.isInteger(value) || value < 1 || value > 0xffff_ffff) {
       throw new HandlebodyError('invalid-option', {
@@ -37,11 +41,11 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeO
     max_spheres: spheres,
     packing: chosen('packing', PACKINGS, packing),
   };
-  const { mesh, cloud, voxels } = prepareShape(heap, shape);
+  const { mesh, cloud, voxels, used } = prepareShape(heap, shape);
   const vertexCount = mesh.positions.length / 3;
-  if (options.density && options.density.length !== vertexCount) {
+  if (density && density.length !== vertexCount) {
     throw new HandlebodyError('invalid-shape', {
-      message: `There are ${options.density.length} densities for ${vertexCount} vertices.`,
+      message: `There are ${density.length} densities for ${vertexCount} vertices.`,
       remedy: 'Give one number a vertex, 1 where nothing special is wanted.',
     });
   }
@@ -54,12 +58,13 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeO
     const triangles = scratch.putU32(mesh.triangles);
     for (const [name, value] of Object.entries(numbers)) put(layout[name as keyof typeof numbers], value);
     put(layout.cloud, cloud ? 1 : 0);
-    if (options.density) put(layout.density, scratch.putF64(options.density));
+    if (density) put(layout.density, scratch.putF64(density));
+    if (used) put(layout.used, scratch.putU8(used));
     if (voxels && 'dimensions' in shape) {
       put(layout.voxel_count, voxels.length);
       put(layout.voxels, scratch.putU32(voxels));
       heap.u32(given + layout.dims, 3).set(shape.dimensions);
-      heap.f64(given + layout.origin, 3).set(shape.origin);
+      heap.f64(given + layout.origin, 3).set(shape.origin.map((x, axis) => x - (mesh.origin?.[axis] ?? 0)));
       heap.f64(given + layout.spacing, 1).fill(shape.spacing);
     }
     heap.check((e) => e.hb_bake_begin(positions, vertexCount, triangles, mesh.triangles.length / 3, given, out));
@@ -67,11 +72,12 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeO
   });
   try {
     let told = 0;
-    const onProgress = (part: number) => {
-      if (options.onWarning) told = tellWarnings(heap, handle, told, options.onWarning);
-      options.onProgress?.(part);
+    const tell = (part: number) => {
+      if (onWarning) told = tellWarnings(heap, handle, { from: told, origin: mesh.origin, tell: onWarning });
+      onProgress?.(part);
     };
-    await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), { ...options, onProgress });
+    const how = { ...(signal && { signal }), onProgress: tell };
+    await runStepped(heap, (progress) => heap.check((e) => e.hb_bake_step(handle, progress)), how);
     return readBody(heap, handle, mesh, distance);
   } finally {
     heap.release((e) => e.hb_bake_free(handle));

@@ -4,7 +4,7 @@ import { BlendedSkin, type SkinOptions } from './skin.ts';
 /**
  * Dual quaternion blending (Kavan et al. 2008): every vertex moves by a rigid average of the handles' motions, so that nothing collapses
  * where they turn against each other. Of a transform only the closest rotation counts, and where it takes the handle's own region; scale
- * is left out. Weights need not sum to 1.
+ * is left out. A vertex's weights matter by their proportions, and may not all be 0.
  *
  * ```ts
  * const skin = hb.dualQuaternion({ dimension: 2, positions: [0, 0, 1, 0, 2, 0], weights: [1, 0, 0.5, 0.5, 0, 1] });

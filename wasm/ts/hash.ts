@@ -7,6 +7,7 @@
  * ```
  */
 export function hashPositions(positions: ArrayLike<number>): string {
+  if (positions.length === 0) return hashWords([]); // an array whose memory went to another thread cannot even be read
   const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
   return hashWords([new Uint32Array(floats.buffer, floats.byteOffset, floats.length)]);
 }

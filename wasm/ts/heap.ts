@@ -52,6 +52,9 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
   u32(pointer: number, length: number): Uint32Array {
     return new Uint32Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
+  u8(pointer: number, length: number): Uint8Array {
+    return new Uint8Array(this.#alive().memory.buffer, pointer >>> 0, length);
+  }
   u16(pointer: number, length: number): Uint16Array {
     return new Uint16Array(this.#alive().memory.buffer, pointer >>> 0, length);
   }
@@ -169,18 +172,23 @@ export class Scratch {
     return pointer;
   }
   putF64(values: NumberArray): number {
-    const pointer = this.reserve(values.length * 8);
-    this.#heap.f64(pointer, values.length).set(values);
-    return pointer;
+    return this.#put(values, 8, (pointer, length) => this.#heap.f64(pointer, length));
   }
   putU32(values: NumberArray): number {
-    const pointer = this.reserve(values.length * 4);
-    this.#heap.u32(pointer, values.length).set(values);
-    return pointer;
+    return this.#put(values, 4, (pointer, length) => this.#heap.u32(pointer, length));
   }
   putU16(values: NumberArray): number {
-    const pointer = this.reserve(values.length * 2);
-    this.#heap.u16(pointer, values.length).set(values);
+    return this.#put(values, 2, (pointer, length) => this.#heap.u16(pointer, length));
+  }
+  putU8(values: NumberArray): number {
+    return this.#put(values, 1, (pointer, length) => this.#heap.u8(pointer, length));
+  }
+
+  /** An array whose memory went to another thread has no numbers, and cannot even be read as none. */
+  #put(values: NumberArray, bytes: number, view: (pointer: number, length: number) => { set(values: NumberArray): void }): number {
+    const { length } = values;
+    const pointer = this.reserve(length * bytes);
+    if (length > 0) view(pointer, length).set(values);
     return pointer;
   }
 

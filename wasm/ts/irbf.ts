@@ -1,5 +1,6 @@
 import { LAYOUT } from './abi.generated.ts';
 import { checkMeshArrays } from './check-mesh.ts';
+import { unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
 import { hashPositions } from './hash.ts';
@@ -32,6 +33,8 @@ const FLOAT_MAX = 3.4028234663852886e38;
 export class Irbf {
   readonly #heap: Heap;
   readonly #body: BodyData;
+  /** Numbers in its positions when this was made: the caller's array may have gone to another thread since. */
+  readonly #length: number;
   readonly #positions: number;
   readonly #normals: number;
   readonly #restNormals: number;
@@ -44,27 +47,28 @@ export class Irbf {
   #hasRestNormals = false;
 
   /** @internal Use `Handlebody.irbf`. Takes the solver's pointer, and the number of a caller's kernel (0 for none). */
-  constructor(heap: Heap, body: BodyData, irbf: number, hostKernel: number) {
+  constructor(heap: Heap, body: BodyData, vertexCount: number, irbf: number, hostKernel: number) {
     this.#heap = heap;
     this.#body = body;
     this.#irbf = irbf;
     this.#hostKernel = hostKernel;
     // Allocated once, so that a frame allocates nothing.
-    const bytes = body.mesh.positions.length * 4;
+    this.#length = 3 * vertexCount;
+    const bytes = this.#length * 4;
     this.#positions = heap.alloc(bytes);
     this.#normals = heap.alloc(bytes);
     this.#restNormals = heap.alloc(bytes);
     this.#report = heap.alloc(LAYOUT.hb_irbf_report.sizeof);
   }
 
-  /** What was baked. */
+  /** What was given. This deforms what that was then: arrays that change later do not change it. */
   get body(): BodyData {
     return this.#body;
   }
 
   /** Vertices of the mesh, as stored. */
   get vertexCount(): number {
-    return this.#body.mesh.positions.length / 3;
+    return this.#length / 3;
   }
 
   get handleCount(): number {
@@ -83,8 +87,8 @@ export class Irbf {
   setHandles(handles: readonly Handle[]): void {
     const heap = this.#heap;
     const irbf = this.#alive();
-    const { positions } = this.#body.mesh;
     const origin = this.#origin;
+    const stored = heap.call((e) => e.hb_irbf_positions(irbf));
     const points = new Float64Array(handles.length * 3);
     const kinds = new Uint32Array(handles.length);
     handles.forEach((handle, i) => {
@@ -94,14 +98,14 @@ export class Irbf {
         for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = (points[i * 3 + axis] ?? 0) - (origin?.[axis] ?? 0);
         return;
       }
-      if (!Number.isInteger(handle.vertex) || handle.vertex < 0 || handle.vertex >= positions.length / 3) {
+      if (!Number.isInteger(handle.vertex) || handle.vertex < 0 || handle.vertex >= this.vertexCount) {
         throw new HandlebodyError('handle-out-of-range', {
-          message: `Handle ${i} sits on vertex ${handle.vertex}, but the mesh has ${positions.length / 3} vertices.`,
-          remedy: `Use a vertex number from 0 to ${positions.length / 3 - 1}.`,
+          message: `Handle ${i} sits on vertex ${handle.vertex}, but the mesh has ${this.vertexCount} vertices.`,
+          remedy: `Use a vertex number from 0 to ${this.vertexCount - 1}.`,
           culprit: { kind: 'handle', index: i },
         });
       }
-      for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = positions[handle.vertex * 3 + axis] ?? 0;
+      points.set(heap.f64(stored + 24 * handle.vertex, 3), i * 3);
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
@@ -255,7 +259,7 @@ export class Irbf {
       return heap.u32(out, 1)[0] ?? 0;
     });
     heap.kernels.share(this.#hostKernel);
-    return new Irbf(heap, this.#body, shared, this.#hostKernel);
+    return new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel);
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -303,7 +307,7 @@ export class Irbf {
   }
 
   #checkLength(name: string, length: number): void {
-    const expected = this.#body.mesh.positions.length;
+    const expected = this.#length;
     if (length === expected) return;
     throw new HandlebodyError('invalid-shape', {
       message: `The ${name} have ${length} numbers, the mesh has ${expected}.`,
@@ -326,21 +330,23 @@ function checkHeld(rows: Float32Array): void {
 }
 
 /** @internal See `Handlebody.irbf`. */
-export function createIrbf(heap: Heap, body: BodyData, given: IrbfOptions): Irbf {
-  const options = resolve(given);
+export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf {
+  const options = resolve(how);
+  // What the hash is of is what is taken.
+  const body = { ...given, mesh: { ...given.mesh, positions: unshared(given.mesh.positions) } };
   checkBody(body);
   const hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
   try {
     const irbf = runKernel(heap, () =>
       heap.scope((scratch) => {
         const at = writeBody(heap, scratch, body);
-        const how = writeOptions(heap, scratch, options, hostKernel);
+        const optionsAt = writeOptions(heap, scratch, options, hostKernel);
         const out = scratch.reserve(4);
-        heap.check((e) => e.hb_irbf_create(at, how, out));
+        heap.check((e) => e.hb_irbf_create(at, optionsAt, out));
         return heap.u32(out, 1)[0] ?? 0;
       }),
     );
-    return new Irbf(heap, body, irbf, hostKernel);
+    return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel);
   } catch (error) {
     heap.kernels.remove(hostKernel);
     throw error;

@@ -9,8 +9,8 @@ export interface LinearBlendOptions extends SkinOptions {
 export const LINEAR_BLEND_DEFAULTS = { ...SKIN_DEFAULTS, compiled: false } as const;
 
 /**
- * Linear blend skinning: uᵢ = Σⱼ wᵢⱼ Tⱼ [vᵢ; 1]. Weights may be any finite numbers; where they sum to 1, a motion that all handles share is
- * the shape's. Shapes collapse where handles turn against each other.
+ * Linear blend skinning: uᵢ = Σⱼ wᵢⱼ Tⱼ [vᵢ; 1]. A motion that all handles share is the shape's, since a vertex's weights are made to
+ * sum to 1; with `normalize: false` they may be any finite numbers. Shapes collapse where handles turn against each other.
  *
  * ```ts
  * const skin = hb.linearBlend({ dimension: 2, positions: [0, 0, 1, 0, 2, 0], weights: [1, 0, 0.5, 0.5, 0, 1] });

@@ -37,6 +37,6 @@ export interface RbfWarning {
 }
 
 /** Prints a warning where no `onWarning` was given. */
-export function printWarning({ message, remedy }: RbfWarning): void {
+export function printWarning({ message, remedy }: Pick<RbfWarning, 'message' | 'remedy'>): void {
   console.warn(`${message} ${remedy}`);
 }

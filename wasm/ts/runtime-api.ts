@@ -39,5 +39,6 @@ export type { RbfReport, RbfWarning, RbfWarningCode } from './rbf-report.ts';
 export { SHEPARD_DEFAULTS, Shepard, type ShepardOptions } from './shepard.ts';
 export { SIMPLEX_LINEAR_DEFAULTS, SimplexLinear, type SimplexLinearOptions } from './simplex-linear.ts';
 export { BlendedSkin, SKIN_DEFAULTS, Skin, type SkinOptions } from './skin.ts';
+export type { SkinWarning } from './skin-weights.ts';
 export { TENSION_SPLINE_DEFAULTS, TensionSpline, type TensionSplineOptions } from './tension-spline.ts';
 export type * from './types.ts';

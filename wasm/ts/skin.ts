@@ -2,6 +2,8 @@ import type { RuntimeExports } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
 import type { Heap, Scratch } from './heap.ts';
+import { printWarning } from './rbf-report.ts';
+import { type SkinWarning, withSumsOfOne } from './skin-weights.ts';
 import type { TypedArray } from './types.ts';
 
 /** A shape that moves by blending: rest positions, and the weight of each handle at each of them. */
@@ -12,9 +14,19 @@ export interface SkinOptions {
   readonly dimension?: 2 | 3;
   /** n × h, row-major: for every vertex one number per handle. */
   readonly weights: ArrayLike<number>;
+  /**
+   * Divides each vertex's weights by their sum, so that the shape rests where all transforms are the identity. A vertex whose weights have no
+   * positive sum is refused by 'weights-missing'. With `false` they are taken as they are.
+   */
+  readonly normalize?: boolean;
+  /**
+   * Told where weights summed to something else than 1, by more than rounding explains, and of the worst vertex. Without it the warning is
+   * printed.
+   */
+  readonly onWarning?: (warning: SkinWarning) => void;
 }
 
-export const SKIN_DEFAULTS = { dimension: 3 } as const;
+export const SKIN_DEFAULTS = { dimension: 3, normalize: true } as const;
 
 /**
  * A shape under h handles: write their `transforms`, then `deform`. A frame allocates nothing when it is given `out`.
@@ -127,7 +139,7 @@ export abstract class BlendedSkin extends Skin {
     options: SkinOptions,
     create: (exports: RuntimeExports, out: number, given: BlendArguments) => number,
   ) {
-    const { positions, dimension, weights } = { ...SKIN_DEFAULTS, ...options };
+    const { positions, dimension, weights, normalize, onWarning } = { ...SKIN_DEFAULTS, ...options };
     const vertexCount = countRows(positions, dimension);
     const handleCount = weights.length / vertexCount;
     if (!Number.isInteger(handleCount) || handleCount === 0) {
@@ -143,7 +155,10 @@ export abstract class BlendedSkin extends Skin {
         const given = { positions: at, count: vertexCount, dimension, weights: weightsAt, handleCount };
         heap.check((e) => create(e, out, given));
       },
-      (scratch) => [scratch.putF64(positions), scratch.putF64(weights)],
+      (scratch) => [
+        scratch.putF64(positions),
+        scratch.putF64(normalize ? withSumsOfOne(weights, handleCount, onWarning ?? printWarning) : weights),
+      ],
     );
   }
 

@@ -43,13 +43,13 @@ export interface MeshReading {
 }
 
 /** A solid of tetrahedra (m×4 indices, in either order of corners). All of its vertices deform; they are shared by number. */
-export interface TetrahedralMesh {
+export interface TetrahedralMesh extends Pick<Mesh, 'origin' | 'reading'> {
   readonly positions: TypedArray;
   readonly tetrahedra: TypedArray;
 }
 
 /** A dense sample of a surface or of a solid, without triangles: dense enough that a voxel grid over it shows no wide gaps. */
-export interface PointCloud {
+export interface PointCloud extends Pick<Mesh, 'origin' | 'reading'> {
   readonly positions: TypedArray;
 }
 
@@ -61,7 +61,10 @@ export interface VoxelVolume {
   readonly inside: TypedArray;
 }
 
-/** What can be baked. */
+/**
+ * What can be baked. Only what is used counts: vertices that no triangle (of a solid: no tetrahedron) with an extent uses set neither box nor
+ * grid, and move as the nearest inside does; triangles without area, and copies of a triangle, leave no trace. Warnings count them.
+ */
 export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
 
 /**
@@ -70,7 +73,7 @@ export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
  */
 export interface BodyData {
   readonly version: 1;
-  /** The mesh that was baked; of tetrahedra and voxels the surface with all vertices, of a point cloud the points and no triangles. */
+  /** A copy of the mesh that was baked; of tetrahedra and voxels the surface with all vertices, of a point cloud the points and no triangles. */
   readonly mesh: Mesh;
   /** How the distances were measured. */
   readonly distance: DistanceMethod;

@@ -68,24 +68,19 @@ export interface BakeQuestion {
   readonly options: PostedBakeOptions;
 }
 
-/** A mesh that was baked stays behind: the page has it. That of another shape comes along. */
-export type BakeAnswer = Omit<BodyData, 'mesh'> & Partial<Pick<BodyData, 'mesh'>>;
-
-/** The answer that `bake` gives to a question, and what of it is handed over. */
+/** The answer that `bake` gives to a question, and what of it is handed over: all that has arrays of its own. */
 export async function bakeAnswer(
   { shape, options }: BakeQuestion,
   listener: Listener,
   bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>,
-): Promise<Answered<BakeAnswer>> {
-  const { mesh, ...body } = await bake(shape, { ...options, ...listener });
-  const made = 'triangles' in shape ? undefined : mesh;
-  return {
-    answer: made ? { ...body, mesh: made } : body,
-    transfer: [body.voxels, body.centers, body.distances, body.spheres, ...(made ? [made.positions, made.triangles] : [])],
-  };
+): Promise<Answered<BodyData>> {
+  const body = await bake(shape, { ...options, ...listener });
+  const { mesh, voxels, centers, distances, spheres } = body;
+  const arrays = [mesh.positions, mesh.triangles, voxels, centers, distances, spheres];
+  return { answer: body, transfer: arrays.filter((array) => ArrayBuffer.isView(array)) };
 }
 
 /** Answers with what `bake` gives. */
 export function answerBake(port: WorkPort, bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>): void {
-  answer<BakeQuestion, BakeAnswer>(port, (question, listener) => bakeAnswer(question, listener, bake));
+  answer<BakeQuestion, BodyData>(port, (question, listener) => bakeAnswer(question, listener, bake));
 }

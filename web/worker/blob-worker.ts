@@ -4,10 +4,11 @@
  */
 import { Handlebody } from '../../wasm/ts/handlebody.ts';
 import { instantiate } from '../../wasm/ts/load.ts';
-import { answer, type BakeAnswer, type BakeQuestion, bakeAnswer, type WorkPort } from './answer.ts';
+import type { BodyData } from '../../wasm/ts/types.ts';
+import { answer, type BakeQuestion, bakeAnswer, type WorkPort } from './answer.ts';
 import { type SolidWeights, type WeightsQuestion, weighAnswer } from './weigh.ts';
 
-answer<BakeQuestion | WeightsQuestion, BakeAnswer | SolidWeights>(
+answer<BakeQuestion | WeightsQuestion, BodyData | SolidWeights>(
   globalThis as unknown as WorkPort,
   async (question, listener, wasm) => {
     if (!wasm) throw new Error('the solver did not come along');

@@ -1,4 +1,5 @@
 import { type InWorkerOptions, inWorker } from './in-worker.ts';
+import { ownCopy } from './own-copy.ts';
 import { scriptText } from './script-text.ts';
 import type { SolidWeights, WeightsQuestion } from './weigh.ts';
 
@@ -11,14 +12,15 @@ import type { SolidWeights, WeightsQuestion } from './weigh.ts';
  * Throws what `tetrahedralize`, `biharmonicWeights` and `bound` throw, 'aborted' included, as `HandlebodyError`.
  */
 export function weighInWorker(question: WeightsQuestion, options: Omit<InWorkerOptions, 'onWarning'> = {}): Promise<SolidWeights> {
+  const asked = ownCopy(question);
   return inWorker<SolidWeights>({
     ...options,
     worker: options.worker ?? defaultWorker,
     text: options.worker ? undefined : scriptText,
-    ask: () => [question, []],
+    ask: () => [asked, []],
     here: async () => {
       const [{ load }, { weigh }] = await Promise.all([import('../../wasm/ts/index.ts'), import('./weigh.ts')]);
-      return weigh(await load(), question, options);
+      return weigh(await load(), asked, options);
     },
   });
 }

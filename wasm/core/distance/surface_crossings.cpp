@@ -114,19 +114,24 @@ void SurfaceCrossings::finish() {
   }
 }
 
-std::vector<std::uint32_t> enclosed_voxels(const Grid& grid, const SurfaceCrossings& crossings) {
-  std::vector<std::uint32_t> inside;
+EnclosedVoxels enclosed_voxels(const Grid& grid, const SurfaceCrossings& crossings) {
+  EnclosedVoxels inside;
+  bool forward = false, backward = false;
   for (std::size_t line = 0; line < crossings.lines(); ++line) {
     const auto* crossing = crossings.begin(line);
     const auto* end = crossings.end(line);
     if (crossing == end) continue;
-    int winding = 0;
+    int winding = 0, run = 0;  // voxels in a row that it winds around in one direction, counted by its sign
     const std::int64_t first = crossings.first_voxel(line);
     for (int i = 0; i < grid.dims[0]; ++i) {
       for (; crossing != end && crossing->at < i; ++crossing) winding += crossing->sign;
-      if (winding != 0) inside.push_back(static_cast<std::uint32_t>(first + i));
+      if (winding != 0) inside.voxels.push_back(static_cast<std::uint32_t>(first + i));
+      run = winding > 0 ? std::max(run, 0) + 1 : winding < 0 ? std::min(run, 0) - 1 : 0;
+      forward |= run == 3;
+      backward |= run == -3;
     }
   }
+  inside.both_ways = forward && backward;
   return inside;
 }
 

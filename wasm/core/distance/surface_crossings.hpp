@@ -48,8 +48,15 @@ class SurfaceCrossings {
   std::vector<Crossing> sorted_;
 };
 
-/** The voxels around which a closed surface winds, in either direction; ascending. `crossings` are those along x. */
-std::vector<std::uint32_t> enclosed_voxels(const Grid& grid, const SurfaceCrossings& crossings);
+/** What a closed surface encloses. */
+struct EnclosedVoxels {
+  std::vector<std::uint32_t> voxels;  // that it winds around, in either direction; ascending
+  bool both_ways = false;             // it winds around some in one direction, around others in the other: parts face opposite ways
+};
+
+/** `crossings` are those along x. Whether it winds both ways is told by three voxels in a line: of two surfaces in one place,
+ * rounding may swap the order at one voxel's center. */
+EnclosedVoxels enclosed_voxels(const Grid& grid, const SurfaceCrossings& crossings);
 
 /** The voxels nearest to the crossings, appended in any order, more than once each. */
 void crossed_voxels(const Grid& grid, const SurfaceCrossings& crossings, std::vector<std::uint32_t>& voxels);

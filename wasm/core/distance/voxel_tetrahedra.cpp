@@ -8,6 +8,8 @@
 
 #include "core/distance/voxel_domain.hpp"
 #include "core/mesh/kuhn_tetrahedra.hpp"
+#include "core/mesh/sound_surface.hpp"
+#include "core/mesh/weld.hpp"
 
 namespace handlebody {
 
@@ -80,7 +82,7 @@ std::array<std::int32_t, 3> locate(const Grid& grid, const std::vector<char>& ma
   std::array<std::int32_t, 3> cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = place[static_cast<Index>(axis)] + 0.5;
-    cell[axis] = std::clamp(static_cast<std::int32_t>(std::floor(at)), 0, grid.dims[axis] - 1);
+    cell[axis] = static_cast<std::int32_t>(std::clamp(std::floor(at), 0., grid.dims[axis] - 1.));
     part[axis] = at - cell[axis];
   }
   std::array<std::int32_t, 3> best = cell;
@@ -114,13 +116,22 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
   }
   if (auto checked = check_simplex_mesh(surface); !checked) return checked.error();
   const Points positions = surface.positions;
-  const Triangles triangles = surface.simplices;
-  const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  // The surface, without what is none of it; its box is that of the vertices it uses.
+  const Weld weld = weld_vertices(positions);
+  Points welded(std::ssize(weld.unique), 3);
+  for (std::size_t v = 0; v < weld.unique.size(); ++v) welded.row(static_cast<Index>(v)) = positions.row(weld.unique[v]);
+  const SoundSurface sound = sound_surface(welded, weld_triangles(weld, surface.simplices));
+  const Triangles triangles = sound.triangles.topRows(sound.with_area);
+  Vector3 low = welded.row(triangles(0, 0)), high = low;
+  for (Index k = 0; k < triangles.size(); ++k) {
+    low = low.cwiseMin(welded.row(triangles.data()[k]).transpose());
+    high = high.cwiseMax(welded.row(triangles.data()[k]).transpose());
+  }
   auto made = make_grid(low, high, resolution);
   if (!made) return made.error();
   const Grid& grid = *made;
 
-  const std::vector<char> marked = mark_voxels(grid, positions, triangles);
+  const std::vector<char> marked = mark_voxels(grid, welded, triangles);
 
   // Corners are numbered as they are met; there is one more along each axis than there are voxels.
   const std::array<std::int64_t, 3> across{grid.dims[0] + 1, grid.dims[1] + 1, grid.dims[2] + 1};

@@ -11,7 +11,7 @@
 namespace handlebody {
 
 struct VoxelTetrahedra {
-  SimplexMesh mesh;  // corners of the voxels, in the surface's units; no position of the surface is outside
+  SimplexMesh mesh;  // corners of the voxels, in the surface's units; no position that a triangle with an area uses is outside
   /** Where each vertex of the surface is: the four corners of its tetrahedron, and its barycentric coordinates, which are not
    * negative. */
   std::vector<std::array<std::uint32_t, 4>> corners;
@@ -19,8 +19,8 @@ struct VoxelTetrahedra {
 };
 
 /** `surface` is a triangle mesh in space; an open one encloses nothing and gets only the voxels that it touches. Cubes,
- * `resolution` (4 to 256) along the longest side of its box. Limbs that come closer than a voxel merge: raise the resolution then.
- * Fails as check_simplex_mesh() and make_grid() do, or with INVALID_OPTION. */
+ * `resolution` (4 to 256) along the longest side of its box: that of what sound_surface() leaves of it. Limbs that come closer than
+ * a voxel merge: raise the resolution then. Fails as check_simplex_mesh() and make_grid() do, or with INVALID_OPTION. */
 Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int resolution);
 
 }  // namespace handlebody

@@ -77,17 +77,20 @@ Result<std::unique_ptr<Bake>> Bake::begin(const ConstPoints& positions, const Co
   bake.options_ = std::move(options);
   bake.body_.positions = positions;
   bake.body_.triangles = triangles;
-  const Normalization normalization = bake.body_.normalization = normalize(positions);
-  bake.weld_ = weld_vertices(positions);
-  const Index vertices = std::ssize(bake.weld_.unique);
+  auto counted = count_mesh(positions, triangles, std::move(bake.options_.used));
+  if (!counted) return counted.error();
+  bake.mesh_ = std::move(*counted);
+  bake.warnings_ = bake.mesh_.warnings;
+  const Normalization normalization = bake.body_.normalization = normalize(bake.mesh_.positions);
+  const Index vertices = bake.mesh_.positions.rows();
   bake.options_.centers = std::min(bake.options_.centers, vertices);
   bake.solver_positions_.resize(vertices, 3);
   for (Index v = 0; v < vertices; ++v)
-    bake.solver_positions_.row(v) = normalization.to_solver(positions.row(bake.weld_.unique[v]).transpose());
-  bake.triangles_ = weld_triangles(bake.weld_, triangles);
+    bake.solver_positions_.row(v) = normalization.to_solver(bake.mesh_.positions.row(v).transpose());
   if (bake.options_.cloud) {  // a point is a triangle without extent, to measure distances to
-    bake.triangles_.resize(vertices, 3);
-    for (Index v = 0; v < vertices; ++v) bake.triangles_.row(v).setConstant(static_cast<std::uint32_t>(v));
+    bake.mesh_.triangles.resize(vertices, 3);
+    for (Index v = 0; v < vertices; ++v) bake.mesh_.triangles.row(v).setConstant(static_cast<std::uint32_t>(v));
+    bake.mesh_.with_area = vertices;
   }
 
   const auto& given = bake.options_.grid;
@@ -100,7 +103,8 @@ Result<std::unique_ptr<Bake>> Bake::begin(const ConstPoints& positions, const Co
   interior.allow_sheet = bake.options_.method == DistanceMethod::euclidean;
   interior.resolution = bake.options_.resolution;
   interior.centers = bake.options_.centers;
-  bake.interior_ = std::make_unique<InteriorVoxels>(bake.solver_positions_, bake.triangles_, *grid, std::move(interior));
+  interior.flat = bake.mesh_.triangles.rows() - bake.mesh_.with_area;
+  bake.interior_ = std::make_unique<InteriorVoxels>(bake.solver_positions_, bake.mesh_.triangles, *grid, std::move(interior));
   return made;
 }
 
@@ -143,9 +147,10 @@ void Bake::enter(Phase phase) {
 
 void Bake::take_interior() {
   body_.domain = std::move(interior_->domain());
-  warnings_ = interior_->warnings();
-  for (BakeWarning& warning : warnings_)
+  for (BakeWarning warning : interior_->warnings()) {
     if (warning.place) warning.place = body_.normalization.to_model(*warning.place);
+    warnings_.push_back(warning);
+  }
   enter(Phase::depth);
 }
 
@@ -175,7 +180,7 @@ Result<Done> Bake::pack() {
   for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * body_.domain.grid().spacing);
   interior_.reset();
   depth_ = {};
-  auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, triangles_);
+  auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, mesh_.triangles);
   if (!distance) return distance.error();
   distance_ = std::move(*distance);
   enter(Phase::prepare);
@@ -185,7 +190,8 @@ Result<Done> Bake::pack() {
 void Bake::begin_sampling() {
   std::vector<double> density;
   if (!options_.density.empty())
-    for (const std::uint32_t vertex : weld_.unique) density.push_back(options_.density[vertex]);
+    for (std::uint32_t place = 0; place < mesh_.weld.unique.size(); ++place)
+      density.push_back(options_.density[mesh_.stored_number(place)]);
   sampling_ = std::make_unique<CenterSampling>(body_.domain, solver_positions_, *distance_, options_.centers, std::move(density));
   enter(Phase::centers);
 }
@@ -193,11 +199,11 @@ void Bake::begin_sampling() {
 void Bake::take_centers() {
   const CenterSampling::Outside& outside = sampling_->outside();
   if (outside.count > 0) {
-    const std::uint32_t vertex = weld_.unique[outside.farthest];
+    const std::uint32_t vertex = mesh_.stored_number(static_cast<std::uint32_t>(outside.farthest));
     warnings_.push_back({HB_WARNING_PART_OUTSIDE, outside.count, outside.distance * body_.normalization.diagonal,
                          Vector3(body_.positions.row(vertex).transpose()), static_cast<Index>(vertex)});
   }
-  for (const std::uint32_t center : sampling_->centers()) body_.centers.push_back(weld_.unique[center]);
+  for (const std::uint32_t center : sampling_->centers()) body_.centers.push_back(mesh_.stored_number(center));
   body_.distances = std::move(sampling_->distances());
   body_.distance_scale = sampling_->distance_scale();
   sampling_.reset();

@@ -10,8 +10,8 @@
 #include "core/irbf/bake_warning.hpp"
 #include "core/irbf/body.hpp"
 #include "core/irbf/center_sampling.hpp"
+#include "core/irbf/counted_mesh.hpp"
 #include "core/irbf/interior_voxels.hpp"
-#include "core/mesh/weld.hpp"
 
 namespace handlebody {
 
@@ -24,9 +24,10 @@ struct BakeOptions {
   DistanceMethod method = DistanceMethod::fast_marching;
   int max_spheres = 120;
   SpherePacking packing = SpherePacking::skeleton;
-  std::vector<double> density;  // of centers, relative to 1, one per vertex; empty for 1 throughout
-  bool cloud = false;           // no triangles: the positions are a dense sample of a surface or solid
-  std::optional<Grid> grid;     // with `voxels`: the domain, in model units, instead of one found from the surface
+  std::vector<double> density;     // of centers, relative to 1, one per vertex; empty for 1 throughout
+  std::vector<std::uint8_t> used;  // one per vertex, not 0 for those of a solid: empty for those that triangles use
+  bool cloud = false;              // no triangles: the positions are a dense sample of a surface or solid
+  std::optional<Grid> grid;        // with `voxels`: the domain, in model units, instead of one found from the surface
   Indices voxels;
 };
 
@@ -66,9 +67,8 @@ class Bake {
   BakeOptions options_;
   Body body_;
   std::vector<BakeWarning> warnings_;
-  Weld weld_;
-  Points solver_positions_;  // of the welded vertices
-  Triangles triangles_;      // welded, turned to agree
+  CountedMesh mesh_;         // its triangles are turned to agree
+  Points solver_positions_;  // of its places
 
   Phase phase_ = Phase::interior;
   double part_ = 0;  // the fraction of the phase that is done

@@ -13,8 +13,8 @@ namespace handlebody {
 struct BakeWarning {
   hb_warning_code code;
   Index count = 0;
-  double value =
-      0;  // LIMBS_MERGED: a resolution that would do, 0 where none up to 512 does. PART_OUTSIDE: how far out, model units
+  double value = 0;  // LIMBS_MERGED, VOXELS_FEW: a resolution that would do, 0 where none up to 512 does.
+                     // PART_OUTSIDE: how far out, model units
   std::optional<Vector3> place = std::nullopt;
   Index vertex = -1;
 };

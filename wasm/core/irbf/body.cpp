@@ -58,12 +58,15 @@ Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& tria
                  {"Triangle ", t, " uses vertex ", highest, ", but there are only ", positions.rows(), "."},
                  {"Export the model again; its index list does not fit its vertices."}, HB_CULPRIT_TRIANGLE, t);
   }
-  const double diagonal = normalize(positions).diagonal;
+  return Done{};
+}
+
+Result<Done> check_extent(const Normalization& normalization) {
   // Squares of coordinates must neither overflow nor vanish.
-  if (!(diagonal < 1e150)) {
+  if (!(normalization.diagonal < 1e150)) {
     return Error(HB_ERROR_MESH_NOT_FINITE, {"The model's coordinates are too large to compute with."}, {"Scale the model down."});
   }
-  if (!(diagonal > 1e-150)) {
+  if (!(normalization.diagonal > 1e-150)) {
     return Error(HB_ERROR_MESH_ZERO_EXTENT, {"All vertices of the mesh coincide."}, {"Give a mesh with some extent."});
   }
   return Done{};
@@ -77,6 +80,7 @@ Normalization normalize(const ConstPoints& positions) {
 
 Result<Done> check_body(const Body& body) {
   if (auto checked = check_mesh(body.positions, body.triangles, true); !checked) return checked.error();
+  if (auto checked = check_extent(normalize(body.positions)); !checked) return checked.error();
   const Normalization& normalization = body.normalization;
   if (!normalization.center.allFinite() || !std::isfinite(normalization.diagonal) || normalization.diagonal <= 0) {
     return invalid_body({"The baked body's normalization is not a finite center and a positive diagonal."});

@@ -45,6 +45,9 @@ Result<Done> check_mesh(const ConstPoints& positions, const ConstTriangles& tria
 /** The normalization of a checked mesh. */
 Normalization normalize(const ConstPoints& positions);
 
+/** Fails with MESH_ZERO_EXTENT where all vertices coincide, or MESH_NOT_FINITE where squares of coordinates would overflow. */
+Result<Done> check_extent(const Normalization& normalization);
+
 /** Checks that the arrays of a body from outside agree with each other before they are used. */
 Result<Done> check_body(const Body& body);
 

@@ -29,6 +29,7 @@ struct InteriorOptions {
   bool allow_sheet = false;  // take an open sheet's own voxels, instead of failing
   int resolution = 0;        // of the grid, for messages
   Index centers = 0;         // codes to keep per voxel: too many are refused
+  Index flat = 0;            // the last so many triangles have no area: distances to the surface leave them out
 };
 
 class InteriorVoxels {
@@ -68,6 +69,8 @@ class InteriorVoxels {
   void voxelize_slab();
   Result<Done> fill();
   Result<Done> make_domain();
+  void warn_of_few(Index voxels);
+  Index count_inward() const;
   void link_axis();
   double progress() const;
   bool surface() const { return options_.source == InteriorSource::surface; }

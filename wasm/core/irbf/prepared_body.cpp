@@ -12,6 +12,10 @@ namespace {
 
 constexpr double most_bytes = 1.5e9;
 
+/** Vertices farther than this from the middle, in diagonals, are none that triangles use. They move as the place at this distance
+ * on their way to the middle does: wherever they are, kernels and floats can hold it. */
+constexpr double farthest_place = 4;
+
 Error invalid_option(const char* name, double value, const char* remedy) {
   return {HB_ERROR_INVALID_OPTION, {"IRBF's ", name, " is ", value, "."}, {remedy}, HB_CULPRIT_OPTION};
 }
@@ -83,7 +87,9 @@ Result<Done> PreparedBody::prepare_vertices() {
   InteriorSamples samples;
   rest.resize(count, 3);
   for (Index u = 0; u < count; ++u) {
-    const Vector3 point = solver.row(weld.unique[u]);
+    Vector3 point = solver.row(weld.unique[u]);
+    const double away = point.norm();
+    if (away > farthest_place) point *= farthest_place / away;
     samples.add(body.domain, point);
     rest.row(u) = point.cast<float>();
   }

@@ -2,78 +2,34 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "core/mesh/triangle_sides.hpp"
+#include "core/mesh/triangle_tree.hpp"
+#include "core/mesh/weld.hpp"
 #include "core/numerics/indices.hpp"
 
 namespace handlebody {
 namespace {
 
-/** The sides of all triangles, sorted so that those of one edge are adjacent. Side 3t + c runs from corner c to the next. */
-class Edges {
- public:
-  Edges(const Triangles& triangles, Index vertices) : triangles_(triangles) {
-    // Sorted by the lower end in one pass, then by the higher among the few that share it.
-    Indices starts(static_cast<std::size_t>(vertices) + 1);
-    const auto count = static_cast<std::uint32_t>(triangles.size());
-    const auto for_each_side = [&](const auto& visit) {
-      for (std::uint32_t side = 0; side < count; ++side) {
-        const std::uint32_t* t = triangles.data() + side / 3 * 3;
-        // A triangle that uses a vertex twice has no side to face.
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) visit(side, ends(side).first);
-      }
-    };
-    for_each_side([&](std::uint32_t, std::uint32_t low) { ++starts[low + 1]; });
-    for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
-    order_.resize(starts.back());
-    Indices next = starts;
-    for_each_side([&](std::uint32_t side, std::uint32_t low) { order_[next[low]++] = side; });
-    Indices few;
-    for (std::size_t v = 0; v + 1 < starts.size(); ++v) {
-      few.assign(order_.begin() + starts[v], order_.begin() + starts[v + 1]);
-      const auto before = [&](std::uint32_t s, std::uint32_t t) {
-        const std::uint32_t high_s = ends(s).second, high_t = ends(t).second;
-        return high_s != high_t ? high_s < high_t : s < t;
-      };
-      if (few.size() > 32) {
-        sort(few, before);
-      } else {
-        for (std::size_t i = 1; i < few.size(); ++i) {
-          for (std::size_t k = i; k > 0 && before(few[k], few[k - 1]); --k) std::swap(few[k], few[k - 1]);
-        }
-      }
-      std::copy(few.begin(), few.end(), order_.begin() + starts[v]);
-    }
-  }
+/** Two triangles that run along an edge the same way are neighbors of which one is turned over, unless they lie on each other: then
+ *  they are ends of two sheets that happen to meet there, such as the seams of a ball and of a capsule around it. */
+constexpr double folded = 0.866;  // the cosine of 30°
 
-  std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t side) const {
-    const std::uint32_t a = triangles_.data()[side], b = triangles_.data()[side % 3 == 2 ? side - 2 : side + 1];
-    return a < b ? std::pair(a, b) : std::pair(b, a);
-  }
-  /** +1 for a side that runs from the lower number to the higher. */
-  int direction(std::uint32_t side) const { return triangles_.data()[side] == ends(side).first ? 1 : -1; }
+/** Places from which it is looked whether a part lies in another: of one part, and of all together. */
+constexpr Index samples_of_part = 32, samples_of_all = 65536;
 
-  /** Calls visit(first, last) for the sides of each edge. */
-  template <typename Visit>
-  void for_each(const Visit& visit) const {
-    for (std::size_t first = 0, last; first < order_.size(); first = last) {
-      const auto edge = ends(order_[first]);
-      for (last = first + 1; last < order_.size() && ends(order_[last]) == edge;) ++last;
-      visit(order_.data() + first, order_.data() + last);
-    }
-  }
+/** Coordinates this close, in diagonals, are one for telling neighbors: the ends of a lathe's seam, or of a mirrored half, which
+ *  differ by a rounding to floats. */
+constexpr double same_place = 1e-7;
 
- private:
-  const Triangles& triangles_;
-  Indices order_;
-};
-
-Index count_open(const Edges& edges) {
+Index count_open(const TriangleSides& sides) {
   Index open = 0;
-  edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
+  sides.for_each_edge([&](const std::uint32_t* first, const std::uint32_t* last) {
     int sum = 0;
-    for (const std::uint32_t* side = first; side != last; ++side) sum += edges.direction(*side);
+    for (const std::uint32_t* side = first; side != last; ++side) sum += sides.direction(*side);
     open += sum != 0;
   });
   return open;
@@ -89,73 +45,168 @@ double area_of(const Points& positions, const Triangles& triangles, Index t) {
   return (b - a).cross(c - a).norm();
 }
 
-}  // namespace
+bool on_each_other(const Points& positions, const TriangleSides& sides, std::uint32_t one, std::uint32_t other) {
+  const auto [low, high] = sides.ends(one);
+  const Vector3 from = positions.row(low), along = (positions.row(high).transpose() - from).normalized();
+  const auto away = [&](std::uint32_t side) {
+    const Vector3 to = positions.row(sides.opposite(side)).transpose() - from;
+    return Vector3((to - along.dot(to) * along).normalized());
+  };
+  return away(one).dot(away(other)) > folded;
+}
 
-Orientation orient_consistently(const Points& positions, Triangles& triangles) {
-  const Edges edges(triangles, positions.rows());
-  Orientation result{false, false, 0, count_open(edges)};
-  if (result.open_edges == 0) {
-    double volume = 0;
-    for (Index t = 0; t < triangles.rows(); ++t) volume += volume_of(positions, triangles, t);
-    result.closed = true, result.inside_out = volume < 0;
-    return result;
+/** Triangles that are connected by edges of two, and how each has to be turned to agree with the others of its part. */
+class Parts {
+ public:
+  Parts(const Points& positions, const Triangles& triangles, const TriangleSides& sides);
+
+  std::size_t count() const { return starts_.size() - 1; }
+  const std::uint32_t* begin(std::size_t part) const { return queue_.data() + starts_[part]; }
+  const std::uint32_t* end(std::size_t part) const { return queue_.data() + starts_[part + 1]; }
+
+  bool turned(std::uint32_t triangle) const { return turned_[triangle]; }
+
+  /** Whether on every edge as many of the part's sides run one way as the other, once they agree. */
+  bool closed(std::size_t part) const { return !open_[part]; }
+
+  /** Whether its triangles agree as they are. */
+  bool agrees(std::size_t part) const {
+    return std::none_of(begin(part), end(part), [&](std::uint32_t t) { return turned_[t] != 0; });
   }
 
-  // Neighbors across edges that exactly two triangles share.
+ private:
+  std::vector<std::uint8_t> turned_, open_;
+  Indices queue_;                    // the triangles of one part after the other
+  std::vector<std::size_t> starts_;  // where each begins
+};
+
+Parts::Parts(const Points& positions, const Triangles& triangles, const TriangleSides& sides) {
   Indices across(triangles.size(), no_index);
-  edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    if (last - first == 2) across[first[0]] = first[1], across[first[1]] = first[0];
+  sides.for_each_edge([&](const std::uint32_t* first, const std::uint32_t* last) {
+    if (last - first != 2) return;
+    if (sides.direction(first[0]) == sides.direction(first[1]) && on_each_other(positions, sides, first[0], first[1])) return;
+    across[first[0]] = first[1], across[first[1]] = first[0];
   });
   const auto count = static_cast<std::size_t>(triangles.rows());
-  std::vector<std::uint8_t> turned(count);
-  Indices part(count, no_index), queue;
-  std::vector<std::size_t> starts;  // where each part starts in the queue
+  turned_.resize(count);
+  Indices part(count, no_index);
   for (std::uint32_t seed = 0; seed < count; ++seed) {
     if (part[seed] != no_index) continue;
-    std::size_t head = queue.size();
-    const auto number = static_cast<std::uint32_t>(starts.size());
-    starts.push_back(head);
+    std::size_t head = queue_.size();
+    const auto number = static_cast<std::uint32_t>(starts_.size());
+    starts_.push_back(head);
     part[seed] = number;
-    queue.push_back(seed);
-    for (; head < queue.size(); ++head) {
-      for (std::uint32_t side = 3 * queue[head]; side < 3 * queue[head] + 3; ++side) {
+    queue_.push_back(seed);
+    for (; head < queue_.size(); ++head) {
+      for (std::uint32_t side = 3 * queue_[head]; side < 3 * queue_[head] + 3; ++side) {
         if (across[side] == no_index || part[across[side] / 3] != no_index) continue;
         const std::uint32_t t = across[side] / 3;
-        turned[t] = turned[queue[head]] ^ (edges.direction(side) == edges.direction(across[side]));
+        turned_[t] = turned_[queue_[head]] ^ (sides.direction(side) == sides.direction(across[side]));
         part[t] = number;
-        queue.push_back(t);
+        queue_.push_back(t);
       }
     }
   }
-  starts.push_back(queue.size());
+  starts_.push_back(queue_.size());
 
-  // A part is closed where on every edge as many of its sides run one way as the other.
-  std::vector<std::uint8_t> open(starts.size());
-  std::vector<int> sum(starts.size());
-  edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    const auto sign = [&](std::uint32_t side) { return turned[side / 3] ? -edges.direction(side) : edges.direction(side); };
+  open_.resize(starts_.size());
+  for (std::size_t t = 0; t < count; ++t) {  // one without sides is a part that bounds nothing
+    const auto corner = triangles.row(static_cast<Index>(t));
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) open_[part[t]] = 1;
+  }
+  std::vector<int> sum(starts_.size());
+  sides.for_each_edge([&](const std::uint32_t* first, const std::uint32_t* last) {
+    const auto sign = [&](std::uint32_t side) { return turned_[side / 3] ? -sides.direction(side) : sides.direction(side); };
     for (const std::uint32_t* side = first; side != last; ++side) sum[part[*side / 3]] += sign(*side);
-    for (const std::uint32_t* side = first; side != last; ++side) open[part[*side / 3]] |= sum[part[*side / 3]] != 0;
+    for (const std::uint32_t* side = first; side != last; ++side) open_[part[*side / 3]] |= sum[part[*side / 3]] != 0;
     for (const std::uint32_t* side = first; side != last; ++side) sum[part[*side / 3]] = 0;
   });
-  for (std::size_t p = 0; p + 1 < starts.size(); ++p) {
+}
+
+/** The triangles with one vertex for those in nearly one place, the first of them. Along each axis a coordinate becomes that of the
+ * lowest in a row without gaps. */
+Triangles without_seams(const Points& positions, const Triangles& triangles) {
+  const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  const double gap = same_place * (high - low).norm();
+  Points snapped = positions;
+  for (Index axis = 0; axis < 3; ++axis) {
+    const Indices order = sorted_indices(static_cast<std::size_t>(positions.rows()), [&](std::uint32_t a, std::uint32_t b) {
+      return positions(a, axis) < positions(b, axis) || (positions(a, axis) == positions(b, axis) && a < b);
+    });
+    for (std::size_t k = 1; k < order.size(); ++k)
+      if (positions(order[k], axis) - positions(order[k - 1], axis) <= gap) snapped(order[k], axis) = snapped(order[k - 1], axis);
+  }
+  const Weld weld = weld_vertices(snapped);
+  return triangles.unaryExpr([&](std::uint32_t v) { return weld.unique[weld.to_unique[v]]; });
+}
+
+/** Whether just outside of a closed part, everywhere, is the inside of something else. `outside` is 1 for one that faces outward,
+ * −1 for one that faces inward; places are at most `samples`. */
+bool is_nested(const Points& positions, const Triangles& triangles, const TriangleTree& tree, const std::uint32_t* begin,
+               const std::uint32_t* end, int outside, Index samples) {
+  const Index step = std::max<Index>(1, (end - begin) / samples);
+  bool looked = false;
+  for (const std::uint32_t* t = begin; t < end; t += step) {
+    const Vector3 a = positions.row(triangles(*t, 0)), b = positions.row(triangles(*t, 1)), c = positions.row(triangles(*t, 2));
+    const Vector3 normal = (b - a).cross(c - a);
+    const double size = std::sqrt(normal.norm());
+    if (!(size > 0)) continue;
+    looked = true;
+    if (std::abs(tree.winding_number((a + b + c) / 3 + 1e-3 * outside * size * normal.normalized())) < 0.5) return false;
+  }
+  return looked;
+}
+
+}  // namespace
+
+Orientation orient_consistently(const Points& positions, Triangles& triangles) {
+  const TriangleSides as_given(triangles, positions.rows());
+  Orientation result{false, false, 0, count_open(as_given)};
+  result.closed = result.open_edges == 0;
+  const Triangles joined = result.closed ? triangles : without_seams(positions, triangles);
+  const Parts parts(positions, joined, TriangleSides(joined, positions.rows()));
+
+  std::vector<std::size_t> inward, outward;  // closed parts that agree as they are
+  std::vector<std::uint8_t> turn(static_cast<std::size_t>(triangles.rows()));
+  double volume = 0;
+  for (std::size_t p = 0; p < parts.count(); ++p) {
     double keep = 0;
-    for (std::size_t k = starts[p]; k < starts[p + 1]; ++k) {
-      const std::uint32_t t = queue[k];
-      const double share = open[p] ? area_of(positions, triangles, t) : volume_of(positions, triangles, t);
-      keep += turned[t] ? -share : share;
+    for (const std::uint32_t* t = parts.begin(p); t != parts.end(p); ++t) {
+      const double own = volume_of(positions, triangles, *t);
+      volume += own;
+      const double share = parts.closed(p) ? own : area_of(positions, triangles, *t);
+      keep += parts.turned(*t) ? -share : share;
     }
-    for (std::size_t k = starts[p]; k < starts[p + 1]; ++k) {
-      const std::uint32_t t = queue[k];
-      if (turned[t] != (keep < 0)) turned[t] = 2;
+    if (!parts.agrees(p))
+      for (const std::uint32_t* t = parts.begin(p); t != parts.end(p); ++t) turn[*t] = parts.turned(*t) != (keep < 0);
+    else if (parts.closed(p))
+      (keep < 0 ? inward : outward).push_back(p);
+  }
+  const auto turn_round = [&] {
+    for (std::size_t t = 0; t < turn.size(); ++t) {
+      if (!turn[t]) continue;
+      std::swap(triangles(static_cast<Index>(t), 1), triangles(static_cast<Index>(t), 2));
+      turn[t] = 0;
+      ++result.turned;
     }
+  };
+  turn_round();
+  result.inside_out = result.closed && volume < 0;
+  if (!inward.empty()) {
+    const TriangleTree tree(positions, triangles);
+    const Index samples = std::clamp<Index>(samples_of_all / std::ssize(inward), 1, samples_of_part);
+    const auto nested = [&](std::size_t p, int outside) {
+      return is_nested(positions, triangles, tree, parts.begin(p), parts.end(p), outside, samples);
+    };
+    result.inside_out = result.closed && std::all_of(outward.begin(), outward.end(), [&](std::size_t p) { return nested(p, 1); });
+    for (const std::size_t p : inward) {
+      if (result.inside_out || nested(p, -1)) continue;
+      for (const std::uint32_t* t = parts.begin(p); t != parts.end(p); ++t) turn[*t] = 1;
+    }
+    turn_round();
   }
-  for (std::size_t t = 0; t < count; ++t) {
-    if (turned[t] != 2) continue;
-    std::swap(triangles(static_cast<Index>(t), 1), triangles(static_cast<Index>(t), 2));
-    ++result.turned;
-  }
-  result.open_edges = count_open(Edges(triangles, positions.rows()));
+  if (result.closed) return result;
+  result.open_edges = count_open(TriangleSides(triangles, positions.rows()));
   result.closed = result.open_edges == 0;
   return result;
 }
