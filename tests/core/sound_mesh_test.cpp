@@ -100,7 +100,7 @@ Defective spoil(std::mt19937& random, const SimplexMesh& sound, double noise) {
       simplices.push_back(thin);
       ++result.flat;
     }
-    if (noise == 0 && random() % 6 == 0) {  // along an edge, with a vertex of its own there
+    if (random() % 6 == 0) {  // along an edge, with a vertex of its own there
       Indices thin = take();
       const double t = 0.5 + 0.4 * unit(random);
       thin[2] = add((1 - t) * sound.positions.row(a).transpose() + t * sound.positions.row(b).transpose(), no_index);
@@ -194,7 +194,7 @@ TEST_CASE(
     std::mt19937 random(seed);
     const SimplexMesh sound = made_sound(random, static_cast<int>(seed % 3));
     const Defective given = spoil(random, sound, seed % 2 ? 0 : 1e-8);
-    REQUIRE(std::min({given.flat, given.doubled, given.unused}) > 0);
+    REQUIRE(std::min({given.flat, given.doubled, given.unused, given.only_flat}) > 0);
     const SoundMesh result = made(given.mesh);
     const Indices number = check_restored(sound, given, result);
 
@@ -292,6 +292,29 @@ TEST_CASE("what is parted by more than rounding stays apart, however far its oth
   CHECK(places(1e-5, false) == 11);  // more than a millionth of the diagonal
   CHECK(places(5e-4, true) == 9);    // less than that, and than a thousandth of the edges
   CHECK(places(2e-3, true) == 11);   // more than a thousandth of the edges
+}
+
+TEST_CASE("what only rounding gives a height is flat where it hangs on others, and stays where it joins them or is all there is") {
+  // A square of two triangles, with a vertex beside its diagonal.
+  SimplexMesh mesh{Matrix(5, 3), Simplices(3, 3)};
+  mesh.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 1e-7;
+  mesh.simplices << 0, 1, 2, 0, 2, 3, 0, 2, 4;
+  const SoundMesh hangs = made(mesh);
+  CHECK(hangs.flat.count == 1);
+  CHECK(hangs.flat.first == 2);
+  REQUIRE(hangs.flat_vertices.size() == 1);
+  for (const double part : hangs.flat_vertices[0].parts) CHECK((part < 1e-6 || std::abs(part - 0.5) < 1e-6));
+  mesh.positions(4, 2) = 1e-5;  // more than a millionth of the diagonal
+  CHECK(made(mesh).flat.count == 0);
+  mesh.positions(4, 2) = 1e-7;
+  mesh.simplices.conservativeResize(4, 3);
+  mesh.simplices.bottomRows(3) << 0, 2, 4, 0, 4, 3, 4, 2, 3;
+  CHECK(made(mesh).flat.count == 0);
+  mesh.positions.col(1) *= 1e-7;
+  mesh.positions.col(2).setZero();
+  mesh.simplices.conservativeResize(2, 3);
+  mesh.simplices << 0, 1, 2, 0, 2, 3;
+  CHECK(made(mesh, {false, true}).mesh.simplices == mesh.simplices);
 }
 
 TEST_CASE("strictly read, what would be left out is refused, and where nothing is left it always is") {

@@ -332,6 +332,77 @@ describe('three.js’ own shapes', () => {
   });
 });
 
+describe('triangles that are flat to the precision of floats', () => {
+  test.each([...Array(20).keys()].map((k) => 4500 + k))('hang on edges of a turned sphere and change nothing (seed %i)', (seed) => {
+    const next = random(seed);
+    const geometry = new three.IcosahedronGeometry(1, 3);
+    const turned = rotate(rotation(next), geometry.getAttribute('position').array);
+    const shift = next.numbers(3);
+    const plain = turned.map((x, i) => Math.fround(x + (shift[i % 3] as number)));
+    const count = plain.length / 3;
+    const triangles = Array.from({ length: count }, (_, v) => v);
+    const positions = [...plain];
+    const more = [...triangles];
+    const added = Array.from({ length: 20 }, () => {
+      const a = 3 * Math.floor(((next.number() + 1) / 2) * (count / 3));
+      const part = (next.number() + 1) / 2;
+      const at = (v: number, k: number) => plain[3 * v + k] as number;
+      positions.push(...[0, 1, 2].map((k) => Math.fround(at(a, k) * (1 - part) + at(a + 1, k) * part)));
+      const vertex = positions.length / 3 - 1;
+      more.push(a, vertex, a + 1);
+      return { vertex, a, part };
+    });
+    const handles = [{ vertex: 0 }, { vertex: 300 }, { vertex: 600 }];
+    for (const order of [1, 2, 3] as const) {
+      using right = hb.biharmonicWeights({ positions: plain, triangles }, handles, { order });
+      using got = hb.biharmonicWeights({ positions, triangles: more }, handles, { order });
+      expect(largestDifference(got.weights.subarray(0, 3 * count), right.weights)).toBeLessThan(1e-9);
+      for (const { vertex, a, part } of added)
+        for (let j = 0; j < 3; j++)
+          expect(got.weights[3 * vertex + j]).toBeCloseTo(
+            (1 - part) * (right.weights[3 * a + j] as number) + part * (right.weights[3 * (a + 1) + j] as number),
+            4,
+          );
+    }
+  });
+
+  test.each([...Array(20).keys()].map((k) => 4600 + k))(
+    'and needles between others leave finite, right weights (seed %i)',
+    (seed) => {
+      const next = random(seed);
+      const sound = plane(next);
+      // The first inner edge's two triangles, divided by a vertex a little beside it.
+      const [a, b, c] = [9, 18, 17];
+      const thin = 10 ** (-4 - 9 * Math.abs(next.number()));
+      const along = seed % 2 ? 0.5 : 1 - thin;
+      const at = (v: number, k: number) => sound.positions[2 * v + k] as number;
+      const [dx, dy] = [at(b, 0) - at(a, 0), at(b, 1) - at(a, 1)];
+      const added = sound.positions.length / 2;
+      const positions = [...sound.positions, at(a, 0) + along * dx - thin * dy, at(a, 1) + along * dy + thin * dx];
+      const kept: number[] = [];
+      for (let t = 0; t < sound.simplices.length; t += 3) {
+        const own = sound.simplices.slice(t, t + 3);
+        if (![a, b, c].every((v) => own.includes(v))) kept.push(...own);
+      }
+      const triangles = [...kept, a, b, added, a, added, c, added, b, c];
+      expect(kept.length).toBe(sound.simplices.length - 3);
+      const handles = [{ vertex: 0 }, { vertex: 7 }, { vertex: 40 }];
+      for (const order of [1, 2, 3] as const) {
+        using right = hb.biharmonicWeights(asSimplexMesh(sound), handles, { order });
+        using got = hb.biharmonicWeights({ positions, triangles, dimension: 2 }, handles, { order });
+        expect(largestDifference(got.weights.subarray(0, right.weights.length), right.weights)).toBeLessThan(0.02);
+      }
+      for (const energy of ['dirichlet', 'laplacian', 'conformal', 'rigid'] as const) {
+        using map = hb.minimizeEnergy({ positions, triangles, dimension: 2 }, handles, { energy });
+        map.transforms.set([1, 0, 0.5, 0, 1, 0.5], 6);
+        const out = new Float32Array(positions.length);
+        expect(Number.isFinite(map.deform(out).energy)).toBe(true);
+        expect(largest(out)).toBeLessThan(20);
+      }
+    },
+  );
+});
+
 describe('a split mesh', () => {
   // Two squares, each with corners of its own; a vertex on their common edge that only a flat triangle uses; one that nothing uses.
   const split = {
@@ -448,6 +519,23 @@ describe('a split mesh', () => {
     expect(errorOf(() => hb.tetrahedralize(space, { strict: true })).code).toBe('mesh-degenerate');
     using weights = hb.biharmonicWeights(space, [{ at: [5, 5, 5] }, { vertex: 0 }]);
     expect(weights.vertices[0]?.[0]).toBeLessThan(3);
+  });
+
+  it('keeps its shape in doubles far from the origin', () => {
+    const { positions, triangles } = boxMesh([1, 1, 1], [4, 4, 4]);
+    const far = Float64Array.from(positions, (x, i) => x + ([5e5, 4e6, 100][i % 3] as number));
+    const soup = Float64Array.from(
+      { length: 3 * triangles.length },
+      (_, i) => far[3 * (triangles[Math.floor(i / 3)] as number) + (i % 3)] as number,
+    );
+    const order = Uint32Array.from({ length: triangles.length }, (_, i) => i);
+    using right = hb.biharmonicWeights({ positions: far, triangles }, [{ vertex: 0 }, { vertex: 60 }]);
+    using got = hb.biharmonicWeights({ positions: soup, triangles: order }, [
+      { vertex: triangles.indexOf(0) },
+      { vertex: triangles.indexOf(60) },
+    ]);
+    expect(new Set(got.vertexOf).size).toBe(positions.length / 3);
+    for (const [i, v] of triangles.entries()) expect(got.weights[2 * i]).toBeCloseTo(right.weights[2 * v] as number, 9);
   });
 
   it('is copied: what is done to the arrays afterwards changes nothing', () => {

@@ -33,7 +33,7 @@ export interface MeshOptions {
 }
 
 /** How many of a kind, and the first. */
-export interface LeftOut {
+interface LeftOut {
   readonly count: number;
   readonly first: number;
 }

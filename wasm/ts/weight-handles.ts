@@ -16,7 +16,7 @@ export type WeightHandle =
   | { readonly bone: readonly [ArrayLike<number>, ArrayLike<number>] };
 
 /** The vertices of every handle: of the sound mesh, and of the mesh as it came. @internal */
-export interface ResolvedHandles {
+interface ResolvedHandles {
   readonly held: readonly (readonly number[])[];
   readonly vertices: readonly (readonly number[])[];
 }

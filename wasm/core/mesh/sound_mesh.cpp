@@ -1,5 +1,6 @@
 #include "core/mesh/sound_mesh.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -30,29 +31,39 @@ Points places_of(const SimplexMesh& stored, Index first_used) {
   return places;
 }
 
-/** How near another vertex must be to be the same. */
-Vector reach_of(const SimplexMesh& stored, const Points& places, const std::vector<char>& used) {
-  Vector reach = Vector::Zero(places.rows());
-  for (Index s = 0; s < stored.simplices.rows(); ++s) {
-    const double edge = of_edge * longest_edge(stored, s);
-    for (Index k = 0; k < stored.simplices.cols(); ++k) {
-      double& own = reach[stored.simplices(s, k)];
-      own = std::max(own, edge);
-    }
-  }
+/** The diagonal of the box of all that simplices use. */
+double diagonal_of(const Points& places, const std::vector<char>& used) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (Index v = 0; v < places.rows(); ++v) {
     if (!used[v]) continue;
     low = low.cwiseMin(places.row(v).transpose());
     high = high.cwiseMax(places.row(v).transpose());
   }
-  return reach.cwiseMin(of_diagonal * (high - low).norm());
+  return (high - low).norm();
+}
+
+/** What rounding may do to the corners of a simplex with this longest edge. */
+double rounding(double longest, double diagonal) {
+  return std::min(of_edge * longest, of_diagonal * diagonal);
+}
+
+/** How near another vertex must be to be the same. */
+Vector reach_of(const SimplexMesh& stored, double diagonal) {
+  Vector reach = Vector::Zero(stored.positions.rows());
+  for (Index s = 0; s < stored.simplices.rows(); ++s) {
+    const double edge = rounding(longest_edge(stored, s), diagonal);
+    for (Index k = 0; k < stored.simplices.cols(); ++k) {
+      double& own = reach[stored.simplices(s, k)];
+      own = std::max(own, edge);
+    }
+  }
+  return reach;
 }
 
 /** The places, each with its vertices. A vertex without a place of its own shares none. */
-Weld join_places(const SimplexMesh& stored, const Points& places, const std::vector<char>& used, Index first_used, bool join) {
+Weld join_places(const SimplexMesh& stored, const Points& places, Index first_used, double diagonal, bool join) {
   Weld found;
-  if (join) found = weld_vertices(places, reach_of(stored, places, used));
+  if (join) found = weld_vertices(places, reach_of(stored, diagonal));
   Weld result;
   Indices number(found.unique.size(), no_index);
   for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(places.rows()); ++v) {
@@ -87,6 +98,39 @@ Indices first_alike(const Simplices& simplices) {
   for (std::size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && compare(order[i], order[i - 1]) == 0 ? first[order[i - 1]] : order[i];
   return first;
+}
+
+/** How high a simplex is above its largest side. */
+double lowest_height(const SimplexMesh& mesh, Index s) {
+  if (mesh.simplices.cols() == 3) return 2 * simplex_volume(mesh, s) / longest_edge(mesh, s);
+  double largest = 0;
+  for (Index k = 0; k < 4; ++k) {
+    const auto corner = [&](Index l) -> Vector3 { return mesh.positions.row(mesh.simplices(s, (k + l) % 4)); };
+    largest = std::max(largest, (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2);
+  }
+  return 3 * simplex_volume(mesh, s) / largest;
+}
+
+/** For each simplex whether it is flat: without area or volume, or with one that may be rounding's alone, where it hangs on others
+ * by a part of its vertices only. One that joins others stays, however low it is: without it there would be a slit. */
+std::vector<char> flat_simplices(const SimplexMesh& mesh, double diagonal) {
+  const Index count = mesh.simplices.rows(), corners = mesh.simplices.cols();
+  std::vector<char> flat(count), low(count), held(mesh.positions.rows(), 0), part_is_held;
+  for (Index s = 0; s < count; ++s) {
+    flat[s] = is_flat(mesh, s);
+    low[s] = flat[s] || lowest_height(mesh, s) < rounding(longest_edge(mesh, s), diagonal);
+    for (Index k = 0; k < corners && !low[s]; ++k) held[mesh.simplices(s, k)] = 1;
+  }
+  if (std::find(low.begin(), low.end(), 1) == low.end()) return flat;
+  const Indices parts = connected_parts(mesh);
+  part_is_held.assign(parts.size(), 0);
+  for (std::size_t v = 0; v < held.size(); ++v) part_is_held[parts[v]] |= held[v];
+  for (Index s = 0; s < count; ++s)
+    for (Index k = 0; k < corners && low[s] && !flat[s]; ++k) {
+      const std::uint32_t v = mesh.simplices(s, k);
+      flat[s] = !held[v] && part_is_held[parts[v]];
+    }
+  return flat;
 }
 
 /** The triangles of a surface, or all faces of tetrahedra. */
@@ -144,7 +188,8 @@ Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& 
   const std::vector<char> used = used_vertices(stored);
   const auto first_used = static_cast<Index>(std::find(used.begin(), used.end(), 1) - used.begin());
   const Points places = places_of(stored, first_used);
-  const Weld weld = join_places(stored, places, used, first_used, options.weld);
+  const double diagonal = diagonal_of(places, used);
+  const Weld weld = join_places(stored, places, first_used, diagonal, options.weld);
 
   SimplexMesh welded{Matrix(std::ssize(weld.unique), stored.positions.cols()), stored.simplices};
   for (Index u = 0; u < welded.positions.rows(); ++u)
@@ -157,12 +202,13 @@ Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& 
   const bool solid = stored.simplices.cols() == 4;
   const char* const one = solid ? "Tetrahedron " : "Triangle ";
   const hb_culprit culprit = solid ? HB_CULPRIT_TETRAHEDRON : HB_CULPRIT_TRIANGLE;
+  const std::vector<char> is_thin = flat_simplices(welded, diagonal);
   const Indices alike = first_alike(welded.simplices);
   Indices kept;
   std::vector<char> sound(weld.unique.size(), 0), flat(weld.unique.size(), 0);
   for (Index s = 0; s < welded.simplices.rows(); ++s) {
-    const bool is_thin = is_flat(welded, s), repeats = alike[s] != static_cast<std::uint32_t>(s);
-    if (is_thin) {
+    const bool repeats = alike[s] != static_cast<std::uint32_t>(s);
+    if (is_thin[s]) {
       count(result.flat, s);
     } else if (repeats) {
       result.doubled.push_back(static_cast<std::uint32_t>(s));
@@ -173,9 +219,12 @@ Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& 
     } else {
       kept.push_back(static_cast<std::uint32_t>(s));
     }
-    for (Index k = 0; k < welded.simplices.cols(); ++k) (is_thin ? flat : sound)[welded.simplices(s, k)] = 1;
+    for (Index k = 0; k < welded.simplices.cols(); ++k) (is_thin[s] ? flat : sound)[welded.simplices(s, k)] = 1;
   }
-  if (result.flat.count > 0 && (options.strict || kept.empty())) return check_volumes(welded).error();
+  if (result.flat.count > 0 && (options.strict || kept.empty())) {
+    return Error(HB_ERROR_MESH_DEGENERATE, {one, result.flat.first, solid ? " has no volume." : " has no area."},
+                 {"Remove it, or move its vertices apart."}, culprit, result.flat.first);
+  }
 
   Indices number(weld.unique.size(), no_index);
   for (std::size_t u = 0; u < number.size(); ++u) {

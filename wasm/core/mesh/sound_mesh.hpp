@@ -42,8 +42,10 @@ struct SoundMesh {
 };
 
 /** Vertices are at one place where they are equal (−0 equals 0), or so near that only rounding can have parted them: nearer than a
- * millionth of the diagonal of all that simplices use, and than a thousandth of the longest edge at either. Takes O((n + m) log (n
- * + m)). Fails as check_simplex_mesh(), or with MESH_DEGENERATE where nothing is left, or `strict` finds something to leave out. */
+ * millionth of the diagonal of all that simplices use, and than a thousandth of the longest edge at either. A simplex is flat where
+ * is_flat() says so, and where its height is as little as that and it has a vertex that only such simplices use, unless its whole
+ * part of the mesh is of them. Takes O((n + m) log (n + m)). Fails as check_simplex_mesh(), or with MESH_DEGENERATE where nothing
+ * is left, or `strict` finds something to leave out. */
 Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& options);
 
 }  // namespace handlebody

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t most_updates = 64;
 constexpr double most_error[] = {1e-6, 1e-6, 1e-4};  // of the sums of weights, for each order: more is worth another factorization
+constexpr double worst_error = 0.05;                 // more is no answer
 
 template <typename Weights>
 void set_unit_rows(const HeldVertices& held, Weights& weights) {
@@ -71,22 +72,23 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
   if (!best) return best.error();
   if (best->error > most_error[order_ - 1]) {
     const double of_mesh = thinnest_simplex(mesh_);
-    for (double next = thicker(thinnest_, order_, of_mesh); next > 0; next = thicker(thinnest_, order_, of_mesh)) {
-      const double before = thinnest_;
+    double thinnest_of_best = thinnest_;
+    for (double next = thicker(thinnest_, order_, of_mesh); next > 0 && best->error > most_error[order_ - 1];
+         next = thicker(next, order_, of_mesh)) {
       if (auto done = set_energy(next); !done) return done;
       auto other = attempt(held, free);
       if (!other) return other.error();
-      if (best->solver && !(other->error < best->error / 2)) {
-        if (auto done = set_energy(before); !done) return done;
-        break;
-      }
+      if (!(other->error < best->error / 2)) continue;
       best = std::move(other);
-      if (best->error <= most_error[order_ - 1]) break;
+      thinnest_of_best = next;
     }
+    if (thinnest_ != thinnest_of_best)
+      if (auto done = set_energy(thinnest_of_best); !done) return done;
   }
-  if (!best->solver) {
+  if (!(best->error < worst_error)) {
     return Error(HB_ERROR_SYSTEM_SINGULAR,
-                 {"The weights' equations have no answer in double precision: some simplices are too thin."},
+                 {"The weights' equations have no answer in double precision: some simplices are too thin, or the mesh is too fine "
+                  "for the order."},
                  {"Improve the mesh, or lower the order."});
   }
   solver_ = std::move(best->solver);
