@@ -98,6 +98,17 @@ TEST_CASE("islands by comparing all vertices with all that are held, single vert
   }
 }
 
+TEST_CASE("a vertex in no simplex whose distance is no number goes with the first handle") {
+  SimplexMesh mesh = separate_triangles({{0, 0}, {5, 0}});
+  mesh.positions.conservativeResize(8, 2);
+  mesh.positions.bottomRows(2) << std::nan(""), 0, 1e200, 0;
+  HeldVertices held{{3, 0}, {0, 1}, 2};
+  const auto islands = complete(held, mesh, connected_parts(mesh));
+  REQUIRE(islands);
+  REQUIRE(islands->size() == 2);
+  for (const Island& island : *islands) CHECK(island.handle < 2);
+}
+
 TEST_CASE("handles that cannot be are named") {
   CHECK(completion_error({{}, {}, 0}).code == HB_ERROR_HANDLES_MISSING);
   const auto check_named = [](const HeldVertices& held, hb_status code, std::int64_t handle) {

@@ -156,6 +156,48 @@ TEST_CASE("handles that come, go and move by updates give the weights of a new f
   }
 }
 
+TEST_CASE("needles and caps, however thin, leave the weights nearly what they are without them (seeds 2110 to 2133)") {
+  for (unsigned seed = 2110; seed < 2134; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const SimplexMesh plain = square(8, random);
+    const Index n = plain.positions.rows();
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double thin = std::pow(10, -3 - 10 * unit(random)), along = seed % 2 ? 0.5 : 1 - thin;
+    // The inner edge from a to b of two triangles gets a vertex beside it, at the middle (a cap) or beside b (a needle).
+    const auto cell = static_cast<std::uint32_t>(1 + random() % 6 + 9 * (1 + random() % 6));
+    const std::uint32_t a = cell, b = cell + 10, c = cell + 9, added = static_cast<std::uint32_t>(n);
+    SimplexMesh mesh{Matrix(n + 1, 2), Simplices(plain.simplices.rows() + 2, 3)};
+    const Eigen::RowVector2d edge = plain.positions.row(b) - plain.positions.row(a);
+    mesh.positions.topRows(n) = plain.positions;
+    mesh.positions.row(n) = plain.positions.row(a) + along * edge + thin * Eigen::RowVector2d(-edge[1], edge[0]);
+    Index s = 0;
+    for (Index t = 0; t < plain.simplices.rows(); ++t) {
+      const Eigen::RowVector3i own = plain.simplices.row(t).cast<int>();
+      const bool divided = (own.array() == static_cast<int>(a)).any() && (own.array() == static_cast<int>(b)).any() &&
+                           (own.array() == static_cast<int>(c)).any();
+      if (divided) {
+        mesh.simplices.row(s++) << a, added, c;
+        mesh.simplices.row(s++) << added, b, c;
+        mesh.simplices.row(s++) << a, b, added;
+      } else {
+        mesh.simplices.row(s++) = plain.simplices.row(t);
+      }
+    }
+    REQUIRE(check_volumes(mesh));
+    const HeldVertices held{{0, 8, 80}, {0, 1, 2}, 3};
+    for (int order = 1; order <= 3; ++order) {
+      CAPTURE(order);
+      PolyharmonicWeights expected = made(plain, order), weights = made(mesh, order);
+      REQUIRE(expected.set_handles(held));
+      REQUIRE(weights.set_handles(held));
+      CHECK(weights.weights().allFinite());
+      CHECK((weights.weights().topRows(n) - expected.weights()).cwiseAbs().maxCoeff() < 5e-3);
+      CHECK((weights.weights().rowwise().sum().array() - 1).abs().maxCoeff() < (order == 3 ? 1e-3 : 1e-5));
+    }
+  }
+}
+
 TEST_CASE("weights sum to 1, turn and grow with the mesh, and follow the order of handles (seed 2101)") {
   std::mt19937 random(2101);
   SimplexMesh mesh = square(12, random);

@@ -122,6 +122,18 @@ TEST_CASE("meshes that no operator can be made on are named") {
   check_mesh_refused(mesh, HB_ERROR_MESH_TOO_LARGE);
 }
 
+TEST_CASE("vertices that no simplex uses may be anywhere, and give no extent") {
+  for (const double anywhere : {std::nan(""), HUGE_VAL, 1e300, 5.0}) {
+    SimplexMesh mesh = one_triangle();
+    mesh.positions.conservativeResize(4, 2);
+    mesh.positions.row(3).setConstant(anywhere);
+    CHECK(used_vertices(mesh) == std::vector<char>{1, 1, 1, 0});
+    CHECK(check_simplex_mesh(mesh));
+    mesh.positions.topRows(3).setConstant(2);
+    check_mesh_refused(mesh, HB_ERROR_MESH_ZERO_EXTENT);
+  }
+}
+
 TEST_CASE("simplices without volume are named, thin ones are let through, at any size") {
   for (const double size : {1e-40, 1.0, 1e40}) {
     CAPTURE(size);

@@ -204,6 +204,26 @@ TEST_CASE("triangles without area add no winding but do have a distance") {
   CHECK(tree.distance({.3, .1, 3.1}) == doctest::Approx(1));
 }
 
+TEST_CASE("the nearest triangle is at the distance of the nearest, and of two the first (seeds 61 to 63)") {
+  for (unsigned seed = 61; seed < 64; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-2, 2);
+    Mesh mesh = icosphere(2);
+    mesh.add(box({-.5, -.5, -.5}, {.5, .5, .5}));
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+    mesh.add(mesh);  // every triangle once more
+    const TriangleTree tree = mesh.tree();
+    for (int k = 0; k < 60; ++k) {
+      const Vector3 point(unit(random), unit(random), unit(random));
+      const std::uint32_t found = tree.nearest(point);
+      REQUIRE(found < count);
+      Mesh alone{mesh.points, {mesh.triangles[found]}};
+      CHECK(alone.tree().distance(point) == doctest::Approx(tree.distance(point)).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("a mesh without triangles is nowhere") {
   const TriangleTree tree(Points(0, 3), Triangles(0, 3));
   CHECK(tree.winding_number({0, 0, 0}) == 0);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -51,6 +52,47 @@ TEST_CASE("only equal positions are welded: −0 is 0, the next double is anothe
   const Weld weld = weld_vertices(positions);
   CHECK(weld.to_unique == std::vector<std::uint32_t>{0, 0, 1, 2, 0});
   CHECK(weld.unique == std::vector<std::uint32_t>{0, 2, 3});
+}
+
+TEST_CASE("nearly equal positions within reach of both are welded, chains of them too: every pair compared (seeds 31 to 54)") {
+  for (unsigned seed = 31; seed < 55; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    // On a plane, a line or anywhere; so dense that a reach of 0.02 joins many, and some by others in between.
+    const Index count = 300, axes = 1 + seed % 3;
+    Points positions = Points::Zero(count, 3);
+    for (Index v = 0; v < count; ++v)
+      for (Index axis = 0; axis < axes; ++axis) positions(v, axis) = axes == 1 ? 8 * unit(random) : unit(random);
+    for (Index v = 0; v < 40; ++v) positions.row(random() % count) = positions.row(v);
+    const Vector reach = Vector::NullaryExpr(count, [&] { return random() % 4 ? 0.03 * unit(random) : 0.0; });
+    // The reach of a place is the largest there.
+    Vector of_place = reach;
+    for (Index v = 0; v < count; ++v)
+      for (Index w = 0; w < count; ++w)
+        if (positions.row(v) == positions.row(w)) of_place[v] = std::max(of_place[v], reach[w]);
+    std::vector<Index> least(count);
+    for (Index v = 0; v < count; ++v) least[v] = v;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Index v = 0; v < count; ++v)
+        for (Index w = 0; w < count; ++w) {
+          const double apart = (positions.row(v) - positions.row(w)).norm();
+          if (!(apart == 0 || apart < std::min(of_place[v], of_place[w])) || least[w] >= least[v]) continue;
+          least[v] = least[w];
+          changed = true;
+        }
+    }
+    const Weld weld = weld_vertices(positions, reach);
+    std::uint32_t found = 0;
+    for (Index v = 0; v < count; ++v) {
+      if (least[v] == v) CHECK(weld.unique.at(found++) == v);
+      CHECK(weld.unique[weld.to_unique[v]] == least[v]);
+    }
+    CHECK(weld.unique.size() == found);
+    CHECK(found < 280);
+    CHECK(weld_vertices(positions, Vector::Zero(count)).to_unique == weld_vertices(positions).to_unique);
+  }
 }
 
 TEST_CASE("triangles are welded corner by corner") {

@@ -401,6 +401,43 @@ typedef struct hb_simplex_mesh {
   uint32_t corners;
 } hb_simplex_mesh;
 
+/* A mesh as the functions below want it, made from one as it comes. */
+typedef struct hb_sound_mesh hb_sound_mesh;
+
+/* A vertex that only flat simplices use: Σ parts[k] · corners[k], the nearest point of the sound ones. */
+typedef struct hb_flat_vertex {
+  uint32_t vertex; /* of the mesh as it came */
+  uint32_t corners[3];
+  double parts[3]; /* not negative; their sum is 1 */
+} hb_flat_vertex;
+
+typedef struct hb_sound_mesh_view {
+  const double* positions;             /* vertex_count × dimension: one vertex for each place */
+  const uint32_t* simplices;           /* simplex_count × corners: the sound ones */
+  uint32_t vertex_count;
+  uint32_t simplex_count;
+  const uint32_t* first;               /* for each of these vertices the first vertex there of the mesh as it came */
+  const uint32_t* vertex_of;           /* for each vertex of the mesh as it came its vertex here; for a flat one the nearest corner */
+  const uint32_t* place_of;            /* for each vertex of the mesh as it came the first one at its place */
+  const hb_flat_vertex* flat_vertices; /* flat_vertex_count */
+  const uint32_t* doubled;             /* doubled_count simplices with the corners of one before them, which were left out */
+  uint32_t flat_vertex_count;
+  uint32_t doubled_count;
+  uint32_t flat_count;                 /* simplices without area or volume, which were left out, and the first of them */
+  uint32_t flat_first;
+  uint32_t unused_count;               /* vertices that no simplex uses, and the first of them */
+  uint32_t unused_first;
+} hb_sound_mesh_view;
+
+/* Joins the vertices at one place unless `weld` is 0, and leaves out flat and repeated simplices, or refuses them where `strict` is 1: see
+ * core/mesh/sound_mesh.hpp. Fails with MESH_*, INVALID_SHAPE or INVALID_OPTION. */
+HB_WHOLE_API int32_t hb_sound_mesh_create(const hb_simplex_mesh* mesh, uint32_t weld, uint32_t strict, hb_sound_mesh** sound);
+
+/* Pointers are valid until the mesh is freed. */
+HB_WHOLE_API void hb_sound_mesh_get(hb_sound_mesh* sound, hb_sound_mesh_view* view);
+
+HB_WHOLE_API void hb_sound_mesh_free(hb_sound_mesh* sound);
+
 /* Which vertices handles hold: handle owners[k] holds vertices[k]. */
 typedef struct hb_held_vertices {
   const uint32_t* vertices;

@@ -1,5 +1,18 @@
 #include "abi/simplex_mesh.hpp"
 
+#include <cstddef>
+#include <utility>
+
+#include "core/mesh/sound_mesh.hpp"
+
+using namespace handlebody;
+
+struct hb_sound_mesh {
+  SoundMesh made;
+};
+
+static_assert(sizeof(FlatVertex) == sizeof(hb_flat_vertex) && offsetof(FlatVertex, parts) == offsetof(hb_flat_vertex, parts));
+
 namespace handlebody {
 
 Result<SimplexMesh> read_mesh(const hb_simplex_mesh& mesh) {
@@ -20,3 +33,46 @@ HeldVertices read_held(const hb_held_vertices& held) {
 }
 
 }  // namespace handlebody
+
+extern "C" {
+
+int32_t hb_sound_mesh_create(const hb_simplex_mesh* mesh, uint32_t weld, uint32_t strict, hb_sound_mesh** sound) {
+  if (!mesh || !sound || (!mesh->positions && mesh->vertex_count > 0) || (!mesh->simplices && mesh->simplex_count > 0))
+    return fail({HB_ERROR_INVALID_SHAPE, {"A pointer to the mesh or the result is NULL."}, {"Pass valid pointers."}});
+  if (weld > 1 || strict > 1)
+    return fail({HB_ERROR_INVALID_OPTION,
+                 {"Welding ", weld, " or strictness ", strict, " is unknown."},
+                 {"Use 0 or 1."},
+                 HB_CULPRIT_OPTION});
+  auto read = read_mesh(*mesh);
+  if (!read) return fail(read.error());
+  auto made = handlebody::sound_mesh(*read, {weld == 1, strict == 1});
+  if (!made) return fail(made.error());
+  *sound = new hb_sound_mesh{std::move(*made)};
+  return HB_OK;
+}
+
+void hb_sound_mesh_get(hb_sound_mesh* sound, hb_sound_mesh_view* view) {
+  const SoundMesh& made = sound->made;
+  const SimplexMesh& mesh = made.mesh;
+  *view = {mesh.positions.data(),
+           mesh.simplices.data(),
+           static_cast<uint32_t>(mesh.positions.rows()),
+           static_cast<uint32_t>(mesh.simplices.rows()),
+           made.first.data(),
+           made.vertex_of.data(),
+           made.place_of.data(),
+           reinterpret_cast<const hb_flat_vertex*>(made.flat_vertices.data()),
+           made.doubled.data(),
+           static_cast<uint32_t>(made.flat_vertices.size()),
+           static_cast<uint32_t>(made.doubled.size()),
+           made.flat.count,
+           made.flat.first,
+           made.unused.count,
+           made.unused.first};
+}
+
+void hb_sound_mesh_free(hb_sound_mesh* sound) {
+  delete sound;
+}
+}

@@ -19,6 +19,7 @@ export {
 } from './discrete-green.ts';
 export type { Handlebody } from './handlebody.ts';
 export type { WeightMeasures } from './measure-weights.ts';
+export type { MeshOptions, MeshWarning, MeshWarningCode } from './mesh-warnings.ts';
 export {
   type DeformationEnergy,
   EnergyMinimizer,
@@ -28,6 +29,7 @@ export {
 } from './minimize-energy.ts';
 export * from './runtime-api.ts';
 export type { SimplexMesh } from './simplex-mesh.ts';
+export { MESH_DEFAULTS } from './sound-mesh.ts';
 export type { SteppedOptions } from './stepped.ts';
 export { TETRAHEDRALIZE_DEFAULTS, Tetrahedra, type TetrahedralizeOptions } from './tetrahedralize.ts';
 export type { WeightHandle } from './weight-handles.ts';

@@ -1,11 +1,13 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import type { Heap } from './heap.ts';
-import { type CheckedMesh, checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
+import type { MeshOptions } from './mesh-warnings.ts';
+import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
+import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import { runStepped, type SteppedOptions } from './stepped.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
-export interface BiharmonicWeightsOptions {
+export interface BiharmonicWeightsOptions extends MeshOptions {
   /**
    * 1: harmonic, minimizes ∫|∇w|², with spikes at points. 2: biharmonic, minimizes ∫(Δw)², smooth, a little below 0 and above 1 in places.
    * 3: triharmonic, minimizes ∫|∇Δw|², smoother, farther out of bounds.
@@ -20,13 +22,16 @@ export interface BiharmonicWeightsOptions {
   readonly mass?: 'voronoi' | 'barycentric';
 }
 
-export const BIHARMONIC_WEIGHTS_DEFAULTS = { order: 2, bounded: false, mass: 'voronoi' } as const;
+export const BIHARMONIC_WEIGHTS_DEFAULTS = { order: 2, bounded: false, mass: 'voronoi', ...MESH_DEFAULTS } as const;
 
-/** A connected part of the mesh that no handle touches: it follows the nearest handle, its `weights` are 1 for that one. */
+/**
+ * A connected part of the mesh that no handle touches: it follows the nearest handle, its `weights` are 1 for that one. A vertex that no
+ * triangle uses is one by itself.
+ */
 export interface Island {
   /** Its first vertex. */
   readonly first: number;
-  /** Its number of vertices. */
+  /** Its number of vertices; those at one place count once. */
   readonly count: number;
   /** The handle that it follows. */
   readonly handle: number;
@@ -62,6 +67,11 @@ export interface SparseRows {
  * Skinning weights (lecture, "Weight calculation"): for each handle the smoothest function on the mesh that is 1 at its own vertices and 0 at
  * those of the others. Its operators are libigl's: Q = C, C M⁻¹ C or C M⁻¹ C M⁻¹ C of the cotangent Laplacian C and the mass matrix M.
  *
+ * Vertices at one place are one, as where three.js splits them at seams: they have equal weights. Triangles without area and doubled ones
+ * are left out with a warning, and a vertex that only flat ones use has the weights of the nearest point of the others; a vertex that
+ * nothing uses is an island. Nearly flat triangles stay. Where the products of their cotangents would drown the others in rounding (weights
+ * do not sum to 1, or Q cannot be factored) they count as thicker than they are, up to a thousandth of their longest edge's square.
+ *
  * ```ts
  * const bar = hb.biharmonicWeights(mesh, [{ vertex: 3 }, { bone: [[0, 0], [0, 1]] }]);
  * bar.weights;                        // n × 2, rows sum to 1
@@ -70,12 +80,14 @@ export interface SparseRows {
  */
 export class BiharmonicWeights {
   readonly vertexCount: number;
+  /** For each vertex the first one at its place, with which it shares its weights: itself, unless the mesh splits it. */
+  readonly vertexOf: Uint32Array;
   readonly #heap: Heap<Exports>;
-  readonly #mesh: CheckedMesh;
+  readonly #mesh: SoundMesh;
   #object: number;
   #vertices: readonly (readonly number[])[] = [];
   readonly #bounded: boolean;
-  #weights = new Float64Array();
+  #weights: Float64Array = new Float64Array();
   #report: BoundedReport | undefined;
   /** The report of bounding that is under way. */
   #pending: BoundedReport | undefined;
@@ -92,13 +104,14 @@ export class BiharmonicWeights {
         culprit: { kind: 'option', index: -1 },
       });
     }
-    const checked = checkSimplexMesh(mesh);
-    this.vertexCount = checked.vertexCount;
+    const made = new SoundMesh(heap, mesh, options);
+    this.vertexCount = made.vertexCount;
+    this.vertexOf = made.vertexOf;
     this.#heap = heap;
-    this.#mesh = checked;
+    this.#mesh = made;
     this.#bounded = bounded;
     this.#object = heap.scope((scratch) => {
-      const shape = putMesh(heap, scratch, checked);
+      const shape = putMesh(heap, scratch, made.sound);
       const out = scratch.reserve(4);
       heap.check((e) => e.hb_skinning_weights_create(shape, order, mass === 'voronoi' ? 0 : 1, out));
       return heap.u32(out, 1)[0] ?? 0;
@@ -139,18 +152,29 @@ export class BiharmonicWeights {
       const numbers = this.#heap.u32(this.#heap.u32(out, 1)[0] ?? 0, 3 * size);
       return Array.from({ length: size }, (_, k) => {
         const [first = 0, count = 0, handle = 0] = numbers.subarray(3 * k, 3 * k + 3);
-        return { first, count, handle };
+        return { first: this.#mesh.first[first] as number, count, handle };
       });
     });
   }
 
-  /** The diagonal mass matrix, M: area or volume of the vertices. */
+  /**
+   * The diagonal mass matrix, M: area or volume of the vertices. That of a place is at its first vertex, and 0 at the others there, so that
+   * the sum is that of the shape.
+   */
   get mass(): Float64Array {
+    const { first, vertexCount } = this.#mesh;
     const at = this.#heap.call((e) => e.hb_skinning_weights_mass(this.#handle));
-    return this.#heap.f64(at, this.vertexCount).slice();
+    const mass = new Float64Array(vertexCount);
+    this.#heap.f64(at, first.length).forEach((own, place) => {
+      mass[first[place] as number] = own;
+    });
+    return mass;
   }
 
-  /** Q of the energy wᵀQw: for order 1 the cotangent Laplacian (positive: libigl's `cotmatrix`, negated), for order 2 the bi-Laplacian. */
+  /**
+   * Q of the energy wᵀQw: for order 1 the cotangent Laplacian (positive: libigl's `cotmatrix`, negated), for order 2 the bi-Laplacian. The
+   * row and column of a place are those of its first vertex; the others there have none.
+   */
   get energy(): SparseRows {
     const object = this.#handle;
     const heap = this.#heap;
@@ -158,9 +182,16 @@ export class BiharmonicWeights {
       const out = scratch.reserve(LAYOUT.hb_sparse_matrix.sizeof);
       const entries = heap.call((e) => e.hb_skinning_weights_energy(object, out)) >>> 0;
       const [starts = 0, columns = 0, values = 0] = heap.u32(out, 3);
+      const { first, vertexCount } = this.#mesh;
+      const ends = heap.u32(starts, first.length + 1);
+      const all = new Uint32Array(vertexCount + 1);
+      for (let v = 0, place = 0; v < vertexCount; v++) {
+        if (first[place] === v) place++;
+        all[v + 1] = ends[place] as number;
+      }
       return {
-        starts: heap.u32(starts, this.vertexCount + 1).slice(),
-        columns: heap.u32(columns, entries).slice(),
+        starts: all,
+        columns: heap.u32(columns, entries).map((place) => first[place] as number),
         values: heap.f64(values, entries).slice(),
       };
     });
@@ -169,12 +200,12 @@ export class BiharmonicWeights {
   /** Sets other handles on the same mesh. The former weights stay when it throws. */
   setHandles(handles: readonly WeightHandle[]): void {
     const object = this.#handle;
-    const resolved = resolveHandles(this.#mesh, handles);
+    const { held: places, vertices } = resolveHandles(this.#mesh, handles, false);
     this.#heap.scope((scratch) => {
-      const held = putHeld(this.#heap, scratch, resolved);
+      const held = putHeld(this.#heap, scratch, places);
       this.#heap.check((e) => e.hb_skinning_weights_set_handles(object, held));
     });
-    this.#vertices = resolved;
+    this.#vertices = vertices;
     this.#pending = undefined;
     this.#run++;
     this.#read();
@@ -252,7 +283,8 @@ export class BiharmonicWeights {
 
   #read(): BoundedReport | undefined {
     const values = this.#heap.call((e) => e.hb_skinning_weights_values(this.#handle));
-    this.#weights = this.#heap.f64(values, this.vertexCount * this.handleCount).slice();
+    const { first } = this.#mesh;
+    this.#weights = this.#mesh.rows(this.#heap.f64(values, first.length * this.handleCount).slice(), this.handleCount);
     this.#report = this.#pending;
     return this.#report;
   }

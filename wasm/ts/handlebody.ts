@@ -5,6 +5,7 @@ import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyRuntime } from './handlebody-runtime.ts';
 import type { Heap } from './heap.ts';
 import { measureWeights, type WeightMeasures } from './measure-weights.ts';
+import type { MeshOptions } from './mesh-warnings.ts';
 import { EnergyMinimizer, type MinimizeEnergyOptions } from './minimize-energy.ts';
 import type { SimplexMesh } from './simplex-mesh.ts';
 import { type Tetrahedra, type TetrahedralizeOptions, tetrahedralize } from './tetrahedralize.ts';
@@ -56,8 +57,13 @@ export class Handlebody extends HandlebodyRuntime {
   }
 
   /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
-  measureWeights(mesh: SimplexMesh, handles: readonly WeightHandle[], weights: ArrayLike<number>): WeightMeasures {
-    return measureWeights(this.#heap, mesh, handles, weights);
+  measureWeights(
+    mesh: SimplexMesh,
+    handles: readonly WeightHandle[],
+    weights: ArrayLike<number>,
+    options: MeshOptions = {},
+  ): WeightMeasures {
+    return measureWeights(this.#heap, mesh, handles, weights, options);
   }
 
   /** The deformation of triangles in the plane that minimizes an energy under handles. */

@@ -1,8 +1,10 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
-import { checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
+import type { MeshOptions } from './mesh-warnings.ts';
+import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { Skin } from './skin.ts';
+import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import type { TypedArray } from './types.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 
@@ -15,13 +17,13 @@ import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts'
  */
 export type DeformationEnergy = 'dirichlet' | 'laplacian' | 'conformal' | 'rigid';
 
-export interface MinimizeEnergyOptions {
+export interface MinimizeEnergyOptions extends MeshOptions {
   readonly energy: DeformationEnergy;
   /** The most rounds of `rigid` that a frame takes; it starts where the last one stopped. */
   readonly iterations?: number;
 }
 
-export const MINIMIZE_ENERGY_DEFAULTS = { iterations: 10 } as const;
+export const MINIMIZE_ENERGY_DEFAULTS = { iterations: 10, ...MESH_DEFAULTS } as const;
 
 /** The result of a frame. */
 export interface MinimizeEnergyReport {
@@ -38,7 +40,8 @@ const ENERGIES: readonly DeformationEnergy[] = ['dirichlet', 'laplacian', 'confo
 /**
  * The deformation of triangles in the plane that minimizes an energy while the handles hold their vertices where their transforms take
  * them; a handle of one vertex also holds the vertices next to it (lecture, "Energy-based Deformation"). Parts without a handle move as a
- * whole with the nearest one. Factors once; a frame is one solve, or one per round.
+ * whole with the nearest one. Vertices at one place move as one, and those that only flat triangles use with the nearest point of the
+ * others. Factors once; a frame is one solve, or one per round.
  *
  * ```ts
  * const map = hb.minimizeEnergy({ positions, dimension: 2, triangles }, [{ vertex: 3 }, { vertex: 40 }], { energy: 'rigid' });
@@ -50,8 +53,13 @@ export class EnergyMinimizer extends Skin {
   readonly energy: DeformationEnergy;
   /** The vertices that each handle was given; not those next to them. */
   readonly vertices: readonly (readonly number[])[];
+  /** For each vertex the first one at its place, with which it moves: itself, unless the mesh splits it. */
+  readonly vertexOf: Uint32Array;
   /** @internal */
   declare protected readonly heap: Heap<Exports>;
+  readonly #mesh: SoundMesh;
+  /** For each flat vertex where it is, seen from the point that it moves with. */
+  readonly #offsets: Float64Array;
   readonly #iterations: number;
   readonly #report: number;
 
@@ -62,22 +70,30 @@ export class EnergyMinimizer extends Skin {
     if (number === -1) throw badOption(`There is no energy called "${energy}".`, `Use one of: ${ENERGIES.join(', ')}.`);
     if (!Number.isInteger(iterations) || iterations < 1 || iterations > 1e6)
       throw badOption(`${iterations} iterations cannot be taken.`, 'Use a whole number, 1 or more.');
-    const checked = checkSimplexMesh(mesh);
-    if (checked.dimension !== 2) {
+    const dimension = mesh.dimension ?? 3;
+    if (dimension !== 2) {
       throw new HandlebodyError('invalid-shape', {
-        message: `Energies are minimized in the plane; the mesh has ${checked.dimension} dimensions.`,
+        message: `Energies are minimized in the plane; the mesh has ${dimension} dimensions.`,
         remedy: 'Give two coordinates a vertex, and dimension: 2.',
       });
     }
-    const vertices = resolveHandles(checked, handles);
+    const made = new SoundMesh(heap, mesh, options);
+    const { held: places, vertices } = resolveHandles(made, handles, false);
     super(
       heap,
-      { dimension: 2, vertexCount: checked.vertexCount, handleCount: handles.length },
+      { dimension: 2, vertexCount: made.vertexCount, handleCount: handles.length },
       (out, [shape = 0, held = 0]) => heap.check((e) => e.hb_minimizer_create(shape, held, number, out)),
-      (scratch) => [putMesh(heap, scratch, checked), putHeld(heap, scratch, vertices)],
+      (scratch) => [putMesh(heap, scratch, made.sound), putHeld(heap, scratch, places)],
     );
     this.energy = energy;
     this.vertices = vertices;
+    this.vertexOf = made.vertexOf;
+    this.#mesh = made;
+    const rest = made.rows(Float64Array.from(made.sound.positions), 2);
+    this.#offsets = Float64Array.from({ length: 2 * made.flatVertices.length }, (_, i) => {
+      const at = 2 * (made.flatVertices[i >> 1]?.vertex ?? 0) + (i % 2);
+      return (mesh.positions[at] as number) - (rest[at] as number);
+    });
     this.#iterations = iterations;
     this.#report = heap.alloc(LAYOUT.hb_minimizer_report.sizeof);
   }
@@ -85,10 +101,32 @@ export class EnergyMinimizer extends Skin {
   /** Writes the deformed positions, n×2. Allocates nothing but the report. */
   deform(out: TypedArray): MinimizeEnergyReport {
     const { heap } = this;
-    this.move(out, (skin, to) => heap.check((e) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report)));
+    this.move(out, (skin, to) => {
+      heap.check((e) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report));
+      if (!this.#mesh.isGiven) this.#spread(heap.f32(to, 2 * this.vertexCount));
+    });
     const { energy, iterations } = LAYOUT.hb_minimizer_report;
     const [taken = 0, flips = 0] = heap.u32(this.#report + iterations, 2);
     return { energy: heap.f64(this.#report + energy, 1)[0] ?? 0, iterations: taken, flips };
+  }
+
+  /** Brings positions of the places, which stand first, to all vertices. */
+  #spread(moved: Float32Array): void {
+    const { soundOf, first, flatVertices } = this.#mesh;
+    // From the last on: no place has a higher number than its vertices, so none is overwritten before it is read.
+    for (let v = this.vertexCount - 1; v >= 0; v--) {
+      const from = 2 * Math.min(soundOf[v] as number, v);
+      moved[2 * v] = moved[from] as number;
+      moved[2 * v + 1] = moved[from + 1] as number;
+    }
+    for (let i = 0; i < this.#offsets.length; i++) {
+      const flat = flatVertices[i >> 1];
+      if (!flat) continue;
+      let sum = this.#offsets[i] as number;
+      for (let k = 0; k < 3; k++)
+        sum += (flat.parts[k] as number) * (moved[2 * (first[flat.corners[k] as number] as number) + (i % 2)] as number);
+      moved[2 * flat.vertex + (i % 2)] = sum;
+    }
   }
 
   override dispose(): void {

@@ -2,7 +2,10 @@ import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 
-/** Triangles in the plane or in space, or tetrahedra: one of `triangles` (m×3) and `tetrahedra` (m×4), indices into `positions`. */
+/**
+ * Triangles in the plane or in space, or tetrahedra: one of `triangles` (m×3) and `tetrahedra` (m×4), indices into `positions`. Vertices at
+ * one place are one, and what has no area or volume is left out, unless `MeshOptions` say otherwise.
+ */
 export interface SimplexMesh {
   /** n × dimension, row-major. */
   readonly positions: ArrayLike<number>;
@@ -12,7 +15,7 @@ export interface SimplexMesh {
   readonly tetrahedra?: ArrayLike<number>;
 }
 
-/** A mesh whose arrays fit together. */
+/** A mesh whose arrays fit together. @internal */
 export interface CheckedMesh {
   readonly positions: ArrayLike<number>;
   readonly dimension: 2 | 3;

@@ -2,15 +2,17 @@ import { type Exports, LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
-import { checkSimplexMesh, type SimplexMesh } from './simplex-mesh.ts';
+import type { MeshOptions } from './mesh-warnings.ts';
+import type { SimplexMesh } from './simplex-mesh.ts';
+import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import type { Mesh, TypedArray } from './types.ts';
 
-export interface TetrahedralizeOptions {
+export interface TetrahedralizeOptions extends MeshOptions {
   /** Voxels along the longest side of the surface's box, 4 to 256. Limbs closer than a voxel merge. */
   readonly resolution?: number;
 }
 
-export const TETRAHEDRALIZE_DEFAULTS = { resolution: 32 } as const;
+export const TETRAHEDRALIZE_DEFAULTS = { resolution: 32, ...MESH_DEFAULTS } as const;
 
 /**
  * Tetrahedra that fill a surface, with the place of each of its vertices in them: a mesh for `biharmonicWeights` and the like.
@@ -72,7 +74,8 @@ export class Tetrahedra implements SimplexMesh {
 
 /**
  * Fills a surface with tetrahedra: the voxels that it touches or encloses, six each (Kuhn's division). Weights of a solid depend on its
- * inside, and not on seams, thin parts or how finely the surface is meshed.
+ * inside, and not on seams, thin parts or how finely the surface is meshed. Triangles without area are left out with a
+ * warning, and doubled ones count once. Vertices that no other triangle uses set no size; each is where the solid is nearest.
  *
  * ```ts
  * const solid = hb.tetrahedralize(dog, { resolution: 40 });
@@ -89,7 +92,20 @@ export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, options: Tetr
       culprit: { kind: 'option', index: -1 },
     });
   }
-  const { positions, vertexCount, simplices, simplexCount } = checkSimplexMesh(surface);
+  const mesh = new SoundMesh(heap, surface, options);
+  if (mesh.sound.corners !== 3 || mesh.sound.dimension !== 3) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `Simplices of ${mesh.sound.corners} corners in ${mesh.sound.dimension} dimensions are no surface to fill.`,
+      remedy: 'Give triangles in space.',
+    });
+  }
+  const { sound, first, doubled, vertexCount } = mesh;
+  const positions = insideBox(sound.simplices, first, surface.positions);
+  // Which of two faces in one place faces outward, the voxels decide.
+  const simplices = Array.from(sound.simplices)
+    .concat(doubled)
+    .map((vertex) => first[vertex] as number);
+  const simplexCount = simplices.length / 3;
   return heap.scope((scratch) => {
     const from = scratch.putF64(positions);
     const indices = scratch.putU32(simplices);
@@ -106,5 +122,22 @@ export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, options: Tetr
     );
     heap.call((e) => e.hb_tetrahedra_free(made));
     return result;
+  });
+}
+
+/** Positions, of which those outside the box of the triangles' corners are moved to its border. */
+function insideBox(corners: ArrayLike<number>, first: Uint32Array, positions: ArrayLike<number>): Float64Array {
+  const low = [0, 1, 2].map(() => Number.POSITIVE_INFINITY);
+  const high = [0, 1, 2].map(() => Number.NEGATIVE_INFINITY);
+  for (let i = 0; i < corners.length; i++) {
+    for (let axis = 0; axis < 3; axis++) {
+      const x = positions[3 * (first[corners[i] as number] as number) + axis] as number;
+      low[axis] = Math.min(low[axis] as number, x);
+      high[axis] = Math.max(high[axis] as number, x);
+    }
+  }
+  return Float64Array.from(positions, (x, i) => {
+    const [least, most] = [low[i % 3] as number, high[i % 3] as number];
+    return x > least ? Math.min(x, most) : least;
   });
 }

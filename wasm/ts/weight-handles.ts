@@ -2,10 +2,12 @@ import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 import type { CheckedMesh } from './simplex-mesh.ts';
+import type { SoundMesh } from './sound-mesh.ts';
 
 /**
  * What holds a part of a mesh: a vertex or several, the vertex nearest to a place, or the vertices along a bone, which is a segment between two
- * places. Places must be inside the mesh (on a surface in space they may be anywhere).
+ * places. Places must be inside the mesh (on a surface in space they may be anywhere). A vertex that the mesh splits is held by any of its
+ * copies.
  */
 export type WeightHandle =
   | { readonly vertex: number }
@@ -13,26 +15,61 @@ export type WeightHandle =
   | { readonly at: ArrayLike<number> }
   | { readonly bone: readonly [ArrayLike<number>, ArrayLike<number>] };
 
-/** @internal The vertices of every handle. A bone leaves out those that an earlier handle holds, as where two bones meet. */
-export function resolveHandles(mesh: CheckedMesh, handles: readonly WeightHandle[]): number[][] {
-  const taken = new Set<number>();
-  return handles.map((handle, index) => {
-    let vertices: number[];
-    if ('vertex' in handle) vertices = [handle.vertex];
-    else if ('vertices' in handle) vertices = Array.from(handle.vertices);
-    else if ('at' in handle) vertices = [nearestVertex(mesh, checkPlace(mesh, handle.at, index))];
-    else vertices = boneVertices(mesh, handle.bone, index, taken);
-    for (const vertex of vertices) {
-      if (Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.vertexCount) taken.add(vertex);
-      else {
+/** The vertices of every handle: of the sound mesh, and of the mesh as it came. @internal */
+interface ResolvedHandles {
+  readonly held: readonly (readonly number[])[];
+  readonly vertices: readonly (readonly number[])[];
+}
+
+/**
+ * @internal The vertices of every handle. A bone leaves out those that an earlier handle holds, as where two bones meet; that two others hold
+ * one vertex is refused unless it may be `shared`.
+ */
+export function resolveHandles(mesh: SoundMesh, handles: readonly WeightHandle[], shared: boolean): ResolvedHandles {
+  const { sound, soundOf, first } = mesh;
+  const inUse = new Uint8Array(sound.vertexCount);
+  for (let i = 0; i < sound.simplices.length; i++) inUse[sound.simplices[i] as number] = 1;
+  const taken = new Map<number, { readonly index: number; readonly vertex: number }>();
+  const vertices = handles.map((handle, index) => {
+    let given: number[];
+    if ('vertex' in handle) given = [handle.vertex];
+    else if ('vertices' in handle) given = Array.from(handle.vertices);
+    else {
+      const found =
+        'at' in handle
+          ? [nearestVertex(sound, inUse, checkPlace(sound, handle.at, index))]
+          : boneVertices(sound, inUse, handle.bone, index, taken);
+      given = found.map((vertex) => first[vertex] as number);
+    }
+    for (const vertex of given) {
+      if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.vertexCount)) {
         throw new HandlebodyError('handle-out-of-range', {
           message: `Handle ${index} holds vertex ${vertex}; the mesh has ${mesh.vertexCount}, counted from 0.`,
           remedy: 'Give the number of a vertex.',
           culprit: { kind: 'handle', index },
         });
       }
+      const place = soundOf[vertex] as number;
+      const before = taken.get(place);
+      if (before && before.index !== index && !shared) throw conflict(before, { index, vertex });
+      if (!before) taken.set(place, { index, vertex });
     }
-    return vertices;
+    return given;
+  });
+  return { vertices, held: vertices.map((list) => [...new Set(list.map((vertex) => soundOf[vertex] as number))]) };
+}
+
+function conflict(
+  before: { readonly index: number; readonly vertex: number },
+  { index, vertex }: { readonly index: number; readonly vertex: number },
+): HandlebodyError {
+  return new HandlebodyError('handle-conflict', {
+    message:
+      before.vertex === vertex
+        ? `Handles ${before.index} and ${index} both hold vertex ${vertex}.`
+        : `Handles ${before.index} and ${index} hold vertices ${before.vertex} and ${vertex}, which are one on the shape.`,
+    remedy: 'Move one of them to another vertex, or refine the mesh there.',
+    culprit: { kind: 'handle', index },
   });
 }
 
@@ -52,9 +89,10 @@ export function putHeld(heap: Heap, scratch: Scratch, held: readonly (readonly n
 
 function boneVertices(
   mesh: CheckedMesh,
+  inUse: Uint8Array,
   [from, to]: readonly [ArrayLike<number>, ArrayLike<number>],
   index: number,
-  taken: ReadonlySet<number>,
+  taken: ReadonlyMap<number, unknown>,
 ): number[] {
   checkPlace(mesh, from, index);
   checkPlace(mesh, to, index);
@@ -67,6 +105,7 @@ function boneVertices(
     found.add(
       nearestVertex(
         mesh,
+        inUse,
         Array.from(from, (x, axis) => x + ((to[axis] as number) - x) * t),
       ),
     );
@@ -139,14 +178,15 @@ function isAroundOrigin(p: Float64Array, dimension: 2 | 3): boolean {
   return parts.every((part) => part / whole >= -1e-9);
 }
 
-function nearestVertex({ positions, dimension, vertexCount }: CheckedMesh, at: ArrayLike<number>): number {
+/** The nearest of the vertices that are in use. */
+function nearestVertex({ positions, dimension, vertexCount }: CheckedMesh, inUse: Uint8Array, at: ArrayLike<number>): number {
   let nearest = 0;
   let least = Number.POSITIVE_INFINITY;
   for (let v = 0; v < vertexCount; v++) {
     let squared = 0;
     for (let axis = 0; axis < dimension; axis++)
       squared += ((positions[v * dimension + axis] as number) - (at[axis] as number)) ** 2;
-    if (squared >= least) continue;
+    if (!inUse[v] || squared >= least) continue;
     least = squared;
     nearest = v;
   }

@@ -1,7 +1,9 @@
 #include "core/mesh/cotangent_laplacian.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace handlebody {
 
@@ -23,7 +25,7 @@ void face_normals(const std::array<Vector3, 4>& p, Index corners, std::array<Vec
 
 }  // namespace
 
-SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
+SparseMatrix cotangent_laplacian(const SimplexMesh& mesh, double thinnest) {
   const Index corners = mesh.simplices.cols(), d = mesh.positions.cols();
   const double order = static_cast<double>(corners) - 1;
   std::vector<Triplet> entries;
@@ -37,7 +39,8 @@ SparseMatrix cotangent_laplacian(const SimplexMesh& mesh) {
     }
     face_normals(p, corners, normals);
     // ∫ ∇φᵢ·∇φⱼ = nᵢ·nⱼ / (d² volume). The diagonal is minus the sum of the others, so that constants vanish to the last bit.
-    const double scale = 1 / (order * order * simplex_volume(mesh, s));
+    const double volume = std::max(simplex_volume(mesh, s), thinnest * std::pow(longest_edge(mesh, s), order));
+    const double scale = 1 / (order * order * volume);
     for (Index i = 0; i < corners; ++i) {
       for (Index j = 0; j < i; ++j) {
         const double entry = scale * normals[i].dot(normals[j]);

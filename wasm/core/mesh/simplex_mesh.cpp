@@ -25,6 +25,38 @@ double simplex_volume(const SimplexMesh& mesh, Index simplex) {
   return std::abs(across.dot(corner(mesh, simplex, 3) - a)) / 6;
 }
 
+double longest_edge(const SimplexMesh& mesh, Index simplex) {
+  double longest = 0;
+  for (Index k = 0; k < mesh.simplices.cols(); ++k)
+    for (Index l = 0; l < k; ++l) longest = std::max(longest, (corner(mesh, simplex, k) - corner(mesh, simplex, l)).norm());
+  return longest;
+}
+
+bool is_flat(const SimplexMesh& mesh, Index simplex) {
+  const double longest = longest_edge(mesh, simplex), cube = mesh.simplices.cols() == 4 ? longest : 1.0;
+  return !(simplex_volume(mesh, simplex) > 1e-14 * longest * longest * cube);
+}
+
+std::vector<char> used_vertices(const SimplexMesh& mesh) {
+  std::vector<char> used(mesh.positions.rows(), 0);
+  for (Index i = 0; i < mesh.simplices.size(); ++i) used[mesh.simplices.data()[i]] = 1;
+  return used;
+}
+
+double longest_side(const SimplexMesh& mesh) {
+  double longest = 0;
+  for (Index axis = 0; axis < mesh.positions.cols(); ++axis) {
+    double low = mesh.positions(mesh.simplices(0, 0), axis), high = low;
+    for (Index i = 0; i < mesh.simplices.size(); ++i) {
+      const double x = mesh.positions(mesh.simplices.data()[i], axis);
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
 Result<Done> check_simplex_mesh(const SimplexMesh& mesh) {
   const Index n = mesh.positions.rows(), m = mesh.simplices.rows(), corners = mesh.simplices.cols();
   const bool solid = corners == 4;
@@ -40,17 +72,6 @@ Result<Done> check_simplex_mesh(const SimplexMesh& mesh) {
                  {"Give a mesh of triangles or tetrahedra."});
   }
   if (m == 0) return Error(HB_ERROR_MESH_NO_TRIANGLES, {"The mesh has no", many, "."}, {"Give a mesh of triangles or tetrahedra."});
-  for (Index v = 0; v < n; ++v) {
-    if (mesh.positions.row(v).allFinite()) continue;
-    return Error(HB_ERROR_MESH_NOT_FINITE, {"Vertex ", v, " has a coordinate that is not a finite number."},
-                 {"Repair or remove that vertex."}, HB_CULPRIT_VERTEX, v);
-  }
-  // Products of four coordinates must neither overflow nor vanish.
-  const double largest = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
-  if (!(largest < 1e60))
-    return Error(HB_ERROR_MESH_NOT_FINITE, {"The mesh's coordinates are too large to compute with."}, {"Scale the mesh down."});
-  if (!(largest > 1e-60))
-    return Error(HB_ERROR_MESH_ZERO_EXTENT, {"All vertices of the mesh coincide, or nearly."}, {"Give a mesh with some extent."});
   for (Index s = 0; s < m; ++s) {
     std::uint32_t highest = 0;
     for (Index k = 0; k < corners; ++k) highest = std::max(highest, mesh.simplices(s, k));
@@ -59,17 +80,25 @@ Result<Done> check_simplex_mesh(const SimplexMesh& mesh) {
                    {"Give vertex numbers from 0 on."}, culprit, s);
     }
   }
+  const std::vector<char> used = used_vertices(mesh);
+  for (Index v = 0; v < n; ++v) {
+    if (!used[v] || mesh.positions.row(v).allFinite()) continue;
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"Vertex ", v, " has a coordinate that is not a finite number."},
+                 {"Repair or remove that vertex."}, HB_CULPRIT_VERTEX, v);
+  }
+  // Products of four coordinates must neither overflow nor vanish.
+  const double largest = longest_side(mesh);
+  if (!(largest < 1e60))
+    return Error(HB_ERROR_MESH_NOT_FINITE, {"The mesh's coordinates are too large to compute with."}, {"Scale the mesh down."});
+  if (!(largest > 1e-60))
+    return Error(HB_ERROR_MESH_ZERO_EXTENT, {"All vertices of the mesh coincide, or nearly."}, {"Give a mesh with some extent."});
   return Done{};
 }
 
 Result<Done> check_volumes(const SimplexMesh& mesh) {
-  const Index corners = mesh.simplices.cols();
-  const bool solid = corners == 4;
+  const bool solid = mesh.simplices.cols() == 4;
   for (Index s = 0; s < mesh.simplices.rows(); ++s) {
-    double longest = 0;
-    for (Index k = 0; k < corners; ++k)
-      for (Index l = 0; l < k; ++l) longest = std::max(longest, (corner(mesh, s, k) - corner(mesh, s, l)).norm());
-    if (simplex_volume(mesh, s) > 1e-14 * longest * longest * (solid ? longest : 1.0)) continue;
+    if (!is_flat(mesh, s)) continue;
     return Error(HB_ERROR_MESH_DEGENERATE,
                  {solid ? "Tetrahedron " : "Triangle ", s, solid ? " has no volume" : " has no area", ", so it has no cotangents."},
                  {"Remove it, or move its vertices apart."}, solid ? HB_CULPRIT_TETRAHEDRON : HB_CULPRIT_TRIANGLE, s);

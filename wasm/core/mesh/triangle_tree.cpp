@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "core/numerics/indices.hpp"
 
@@ -57,6 +58,11 @@ double triangle_distance2(const Vector3& point, const Vector3& a, const Vector3&
 
 }  // namespace
 
+double TriangleTree::Triangle::distance2(const Vector3& point) const {
+  if (!flat) return triangle_distance2(point, a, b, c);
+  return std::min({segment_distance2(point, a, b), segment_distance2(point, b, c), segment_distance2(point, c, a)});
+}
+
 void TriangleTree::Box::extend(const Vector3& point) {
   low = low.cwiseMin(point);
   high = high.cwiseMax(point);
@@ -78,6 +84,7 @@ TriangleTree::TriangleTree(const ConstPoints& positions, const ConstTriangles& t
   arranged.reserve(count);
   for (const std::uint32_t t : order) arranged.push_back(triangles_[t]);
   triangles_.swap(arranged);
+  numbers_ = std::move(order);
   build(0, count);
 }
 
@@ -230,17 +237,29 @@ double TriangleTree::distance(const Vector3& point, double bound) const {
       stack[top++] = near;
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle& t = triangles_[i];
-      if (t.flat) {
-        best = std::min(
-            {best, segment_distance2(point, t.a, t.b), segment_distance2(point, t.b, t.c), segment_distance2(point, t.c, t.a)});
-      } else {
-        best = std::min(best, triangle_distance2(point, t.a, t.b, t.c));
-      }
-    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, triangles_[i].distance2(point));
   }
   return std::sqrt(best);
+}
+
+std::uint32_t TriangleTree::nearest(const Vector3& point) const {
+  const double distance = this->distance(point), reach2 = distance * distance * (1 + 1e-12);
+  double best = std::numeric_limits<double>::infinity();
+  std::uint32_t found = 0;
+  for (std::size_t n = 0; n < nodes_.size();) {
+    if (boxes_[n].distance2(point) > std::min(reach2, best)) {
+      n = nodes_[n].skip;
+      continue;
+    }
+    for (std::uint32_t i = nodes_[n].first; i < nodes_[n].first + nodes_[n].count; ++i) {
+      const double own = triangles_[i].distance2(point);
+      if (own > best || (own == best && numbers_[i] > found)) continue;
+      best = own;
+      found = numbers_[i];
+    }
+    ++n;
+  }
+  return found;
 }
 
 }  // namespace handlebody

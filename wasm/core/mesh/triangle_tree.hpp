@@ -25,11 +25,15 @@ class TriangleTree {
   /** Distance from `point` to the nearest triangle, or `bound` if none is nearer. */
   double distance(const Vector3& point, double bound = std::numeric_limits<double>::infinity()) const;
 
+  /** The number of a triangle that is nearest to `point`. There must be one. */
+  std::uint32_t nearest(const Vector3& point) const;
+
  private:
   struct Triangle {
     Vector3 a, b, c;
     bool flat;                                       // practically no area: it has a distance but no solid angle
     Vector3 centroid3() const { return a + b + c; }  // thrice the centroid
+    double distance2(const Vector3& point) const;
   };
 
   // Depth first: the left child of an inner node follows it, `skip` is the first node after its subtree.
@@ -60,7 +64,8 @@ class TriangleTree {
   void build(std::uint32_t first, std::uint32_t last);
   Expansion expand(std::uint32_t first, std::uint32_t last) const;
 
-  std::vector<Triangle> triangles_;  // in the order of the leaves
+  std::vector<Triangle> triangles_;     // in the order of the leaves
+  std::vector<std::uint32_t> numbers_;  // theirs in the order that they were given in
   std::vector<Node> nodes_;
   std::vector<Box> boxes_;
   std::vector<Expansion> expansions_;  // empty where `winding` is false

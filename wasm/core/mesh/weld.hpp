@@ -1,4 +1,4 @@
-// Welding by exact position: renderers split vertices at texture seams, a volume does not.
+// Welding by position: renderers split vertices at texture seams and creases, a volume or a surface does not.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,11 @@ struct Weld {
 
 /** Finds the stored vertices that share a position exactly (−0 equals 0). Welded vertices are numbered in stored order. */
 Weld weld_vertices(const ConstPoints& positions);
+
+/** Finds the vertices that are at one place for all that matters to a surface: at the same position exactly, or nearer than the
+ * smaller of their `reach`es (one per vertex, 0 for exact only), which bridges what rounding has parted. Places of which each is
+ * near the next are one. The result does not depend on the order of vertices, but for their numbers. */
+Weld weld_vertices(const ConstPoints& positions, const Vector& reach);
 
 /** `triangles` with welded indices. */
 Triangles weld_triangles(const Weld& weld, const ConstTriangles& triangles);

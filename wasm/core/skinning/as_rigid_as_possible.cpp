@@ -21,7 +21,7 @@ class AsRigidAsPossible final : public HeldDeformation {
  private:
   AsRigidAsPossible(Setup setup, std::unique_ptr<MinQuadWithFixed> solver)
       : HeldDeformation(std::move(setup)), solver_(std::move(solver)), forces_(vertices_, 2) {
-    tolerance_ = 1e-7 * (mesh_.positions.colwise().maxCoeff() - mesh_.positions.colwise().minCoeff()).maxCoeff();
+    tolerance_ = 1e-7 * longest_side(mesh_);
   }
 
   double fit_rotations();

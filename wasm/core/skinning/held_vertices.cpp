@@ -59,7 +59,8 @@ Result<std::vector<Island>> complete(HeldVertices& held, const SimplexMesh& mesh
   }
 
   std::vector<double> nearest(part_of.size(), std::numeric_limits<double>::infinity());
-  Indices chosen(part_of.size(), no_index);
+  // A vertex that no simplex uses may have no distance that is a number; it goes with the first handle then.
+  Indices chosen(part_of.size(), held.owners.front());
   const std::size_t given = held.vertices.size();
   for (std::size_t v = 0; v < parts.size(); ++v) {
     const std::uint32_t part = parts[v];

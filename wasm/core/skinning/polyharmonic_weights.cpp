@@ -1,8 +1,8 @@
 #include "core/skinning/polyharmonic_weights.hpp"
 
+#include <limits>
 #include <utility>
 
-#include "core/mesh/cotangent_laplacian.hpp"
 #include "core/mesh/polyharmonic_energy.hpp"
 #include "core/numerics/decompositions.hpp"
 
@@ -11,6 +11,8 @@ namespace handlebody {
 namespace {
 
 constexpr std::size_t most_updates = 64;
+constexpr double most_error[] = {1e-6, 1e-6, 1e-4};  // of the sums of weights, for each order: more is worth another factorization
+constexpr double worst_error = 0.05;                 // more is no answer
 
 template <typename Weights>
 void set_unit_rows(const HeldVertices& held, Weights& weights) {
@@ -32,11 +34,18 @@ Result<std::unique_ptr<PolyharmonicWeights>> PolyharmonicWeights::create(Simplex
   PolyharmonicWeights& result = *made;
   result.parts_ = connected_parts(mesh);
   result.mass_ = mass_matrix(mesh, mass);
-  auto energy = polyharmonic_energy(cotangent_laplacian(mesh), result.mass_, order);
-  if (!energy) return energy.error();
-  result.energy_.swap(*energy);
+  result.order_ = order;
   result.mesh_ = std::move(mesh);
+  if (auto done = result.set_energy(0); !done) return done.error();
   return made;
+}
+
+Result<Done> PolyharmonicWeights::set_energy(double thinnest) {
+  auto energy = polyharmonic_energy(mesh_, mass_, order_, thinnest);
+  if (!energy) return energy.error();
+  energy_.swap(*energy);
+  thinnest_ = thinnest;
+  return Done{};
 }
 
 Result<Done> PolyharmonicWeights::set_handles(HeldVertices held) {
@@ -54,28 +63,53 @@ Result<Done> PolyharmonicWeights::set_handles(HeldVertices held) {
 }
 
 Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
-  const Index n = mesh_.positions.rows(), h = held.handle_count;
+  const Index n = mesh_.positions.rows();
   Indices owner_of(n, no_index), free;
   for (std::size_t k = 0; k < held.vertices.size(); ++k) owner_of[held.vertices[k]] = held.owners[k];
   for (std::uint32_t v = 0; v < owner_of.size(); ++v)
     if (owner_of[v] == no_index) free.push_back(v);
-  auto solver = MinQuadWithFixed::create(energy_, std::move(free), {.columns = h, .order = {}});
-  if (!solver) return solver.error();
-  if (!(*solver)->succeeded()) {
+  auto best = attempt(held, free);
+  if (!best) return best.error();
+  if (best->error > most_error[order_ - 1]) {
+    const double of_mesh = thinnest_simplex(mesh_);
+    double thinnest_of_best = thinnest_;
+    for (double next = thicker(thinnest_, order_, of_mesh); next > 0 && best->error > most_error[order_ - 1];
+         next = thicker(next, order_, of_mesh)) {
+      if (auto done = set_energy(next); !done) return done;
+      auto other = attempt(held, free);
+      if (!other) return other.error();
+      if (!(other->error < best->error / 2)) continue;
+      best = std::move(other);
+      thinnest_of_best = next;
+    }
+    if (thinnest_ != thinnest_of_best)
+      if (auto done = set_energy(thinnest_of_best); !done) return done;
+  }
+  if (!(best->error < worst_error)) {
     return Error(HB_ERROR_SYSTEM_SINGULAR,
-                 {"The weights' equations have no answer in double precision: some simplices are too thin."},
+                 {"The weights' equations have no answer in double precision: some simplices are too thin, or the mesh is too fine "
+                  "for the order."},
                  {"Improve the mesh, or lower the order."});
   }
-  Matrix weights = Matrix::Zero(n, h);
-  set_unit_rows(held, weights);
-  (*solver)->solve(weights);
-
-  solver_ = std::move(*solver);
+  solver_ = std::move(best->solver);
   factored_held_ = held;
   factored_owner_of_ = std::move(owner_of);
-  factored_weights_ = std::move(weights);
+  factored_weights_ = std::move(best->weights);
   weights_ = factored_weights_;
   return Done{};
+}
+
+Result<PolyharmonicWeights::Attempt> PolyharmonicWeights::attempt(const HeldVertices& held, const Indices& free) const {
+  Attempt result{nullptr, {}, std::numeric_limits<double>::infinity()};
+  auto solver = MinQuadWithFixed::create(energy_, free, {.columns = held.handle_count, .order = {}});
+  if (!solver) return solver.error();
+  if (!(*solver)->succeeded()) return result;
+  result.weights = Matrix::Zero(mesh_.positions.rows(), held.handle_count);
+  set_unit_rows(held, result.weights);
+  (*solver)->solve(result.weights);
+  result.solver = std::move(*solver);
+  result.error = (result.weights.rowwise().sum().array() - 1).abs().maxCoeff();
+  return result;
 }
 
 /** False where the vertices of one factored handle went to several: then its weights are of no use. */

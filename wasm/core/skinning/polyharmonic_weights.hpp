@@ -17,7 +17,10 @@ namespace handlebody {
  *
  * The matrix is factored for the first handles: W = Q_ff⁻¹ (−Q_fp) (lecture's x = −A⁻¹ B y). Later ones are small updates of that:
  * a newly held vertex adds the response to a force there, a released one its own weight function, with coefficients from a dense
- * system. Each function takes one solve unless it is known; where these add up to more than a new factorization, there is one. */
+ * system. Each function takes one solve unless it is known; where these add up to more than a new factorization, there is one.
+ *
+ * Products of the cotangents of nearly flat simplices may drown the others in rounding, so that Q cannot be factored or weights do
+ * not sum to 1. Such simplices then count as thicker than they are, as polyharmonic_energy() has it, as little as helps. */
 class PolyharmonicWeights {
  public:
   /** MESH_* as check_simplex_mesh(); INVALID_OPTION for an order other than 1, 2 or 3; OUT_OF_MEMORY as polyharmonic_energy(). */
@@ -49,13 +52,24 @@ class PolyharmonicWeights {
 
   PolyharmonicWeights() = default;
 
+  Result<Done> set_energy(double thinnest);
+  /** What a factorization of the present energy gives. */
+  struct Attempt {
+    std::unique_ptr<MinQuadWithFixed> solver;
+    Matrix weights;
+    double error;  // the most that a row's sum differs from 1; infinite where Q could not be factored
+  };
+
   Result<Done> factor(const HeldVertices& held);
+  Result<Attempt> attempt(const HeldVertices& held, const Indices& free) const;
   bool find_change(const HeldVertices& held, Change& change) const;
   bool pays(const Change& change) const;
   bool update(const HeldVertices& held, const Change& change);
 
   SimplexMesh mesh_;
   Indices parts_;
+  int order_ = 2;
+  double thinnest_ = 0;  // of the simplices in energy_
   SparseMatrix energy_;
   Vector mass_;
 

@@ -10,6 +10,8 @@
 namespace handlebody {
 namespace {
 
+constexpr double most_shift_error = 1e-6;
+
 /** ½ ∫|∇f|² − area(f) of rows 2v and 2v + 1, the coordinates of vertex v. */
 SparseMatrix conformal_matrix(const SimplexMesh& mesh, const SparseMatrix& laplacian) {
   std::vector<Triplet> entries;
@@ -39,20 +41,45 @@ class QuadraticDeformation final : public HeldDeformation {
   static Result<std::unique_ptr<HeldDeformation>> create(SimplexMesh mesh, HeldVertices held, QuadraticEnergy energy) {
     auto setup = set_up(std::move(mesh), std::move(held));
     if (!setup) return setup.error();
+    if (energy == QuadraticEnergy::laplacian) return create_laplacian(*setup);
     SparseMatrix q = cotangent_laplacian(setup->mesh);
-    if (energy == QuadraticEnergy::laplacian) {
-      auto product = polyharmonic_energy(q, mass_matrix(setup->mesh, Mass::voronoi), 2);
-      if (!product) return product.error();
-      q.swap(*product);
-    }
-    const bool conformal = energy == QuadraticEnergy::conformal;
-    if (conformal) q = conformal_matrix(setup->mesh, q);
+    if (energy == QuadraticEnergy::conformal) q = conformal_matrix(setup->mesh, q);
     auto solver = free_solver(q, setup->owner_of);
     if (!solver) return solver.error();
     return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(*setup), q, std::move(*solver)));
   }
 
  private:
+  /** Nearly flat triangles count as thicker until Q can be factored and reproduces shifts, as those of PolyharmonicWeights do. */
+  static Result<std::unique_ptr<HeldDeformation>> create_laplacian(Setup& setup) {
+    const Vector mass = mass_matrix(setup.mesh, Mass::voronoi);
+    for (double thinnest = 0, of_mesh = -1;;) {
+      auto q = polyharmonic_energy(setup.mesh, mass, 2, thinnest);
+      if (!q) return q.error();
+      auto solver = free_solver(*q, setup.owner_of);
+      if (!solver && solver.error().code != HB_ERROR_SYSTEM_SINGULAR) return solver.error();
+      const double error = solver ? shift_error(**solver, setup.owner_of) : most_shift_error + 1;
+      if (error > most_shift_error) {
+        if (of_mesh < 0) of_mesh = thinnest_simplex(setup.mesh);
+        const double next = thicker(thinnest, 2, of_mesh);
+        if (next > 0) {
+          thinnest = next;
+          continue;
+        }
+        if (!solver) return solver.error();
+      }
+      return std::unique_ptr<HeldDeformation>(new QuadraticDeformation(std::move(setup), *q, std::move(*solver)));
+    }
+  }
+
+  /** The most that a shift by 1 of the held vertices moves a free one otherwise. */
+  static double shift_error(MinQuadWithFixed& solver, const Indices& owner_of) {
+    Matrix shift(std::ssize(owner_of), 2);
+    for (std::size_t v = 0; v < owner_of.size(); ++v) shift.row(static_cast<Index>(v)).setConstant(owner_of[v] == no_index ? 0 : 1);
+    solver.solve(shift);
+    return (shift.array() - 1).abs().maxCoeff();
+  }
+
   /** Takes the contents of q. */
   QuadraticDeformation(Setup setup, SparseMatrix& q, std::unique_ptr<MinQuadWithFixed> solver)
       : HeldDeformation(std::move(setup)), solver_(std::move(solver)), product_(q.rows()) {
