@@ -1,4 +1,4 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, irbf, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, irbf, readers, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
@@ -8,6 +8,7 @@ const PARTS = {
   figures: async () => (await import('./figures/main.mjs')).benchFigures(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),
+  readers: async () => (await import('./readers/main.mjs')).benchReaders(),
   skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),
 };
 

@@ -154,6 +154,24 @@ describe('polygons of files', () => {
     }
   });
 
+  it('that are not flat are cut as they look along their normal, in whatever plane that is', () => {
+    const [u, w, n]: [Point, Point, Point] = [
+      [0.8, 0, -0.6],
+      [0.36, 0.8, 0.48],
+      [0.48, -0.6, 0.64],
+    ];
+    for (let by = 0; by < 3; by++) {
+      const [a, b, c] = turned([u, w, n], by) as [Point, Point, Point];
+      for (const [seed, outline] of [comb(3), stairs(4), starOf([2, 0.7, 2, 0.7, 2, 0.7, 2, 0.7])].entries()) {
+        const points = placed(outline, [a, b]).map((p, i) => p.map((x, axis) => x + Math.sin(7 * i + seed) * (c[axis] as number)));
+        const mesh = readPolygon(points);
+        const whole = polygonArea(points as Point[]);
+        expect(mesh.warnings).toEqual([]);
+        expect(Math.min(...areaVectors(mesh).map((each) => dot(each, whole)))).toBeGreaterThan(0);
+      }
+    }
+  });
+
   it('leave no edge open between a face with corners on its edges and its neighbors', () => {
     for (const outline of [stairs(3), comb(2), parted(stairs(2), 3)])
       expect(openEdges(read(...(Object.values(prism(outline)) as [number[][], number[][]])).triangles)).toBe(0);
@@ -228,7 +246,9 @@ describe('polygons of files', () => {
     ]) {
       const { triangles, warnings } = read(points, [face]);
       expect(outlines(triangles)).toEqual(outlinesOf([face]));
-      expect(warnings.map(({ code }) => code)).toContain('triangles-flat');
+      const codes = warnings.map(({ code }) => code);
+      expect(codes).toContain('triangles-flat');
+      expect(codes).not.toContain('faces-crossing');
     }
     const line = read(
       [
@@ -244,6 +264,20 @@ describe('polygons of files', () => {
       ],
     );
     expect(line.warnings).toMatchObject([{ code: 'triangles-flat', count: 2 }]);
+  });
+
+  it('are flat by their height over their length, whatever their size', () => {
+    const isFlat = (size: number, height: number) =>
+      read(
+        [
+          [0, 0, 0],
+          [size, 0, 0],
+          [0, size * height, 0],
+        ],
+        [[0, 1, 2]],
+      ).warnings.some(({ code }) => code === 'triangles-flat');
+    for (const size of [1e-18, 1, 1e18])
+      expect([1, 1e-11, 1e-13, 0].map((height) => isFlat(size, height))).toEqual([false, false, true, true]);
   });
 
   it('do not depend on their size or place', () => {

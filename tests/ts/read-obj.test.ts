@@ -62,6 +62,17 @@ describe('readObj', () => {
     expect(crease.warnings).toMatchObject([{ code: 'normals-split', count: 2, message: expect.stringContaining('smooth') }]);
   });
 
+  it('leaves out what corners name and is not there, the next one too', () => {
+    for (const beyond of [2, 3, 1000]) {
+      const { normals, uvs, warnings } = read(...SQUARE, 'vn 0 0 1', 'vt 0 0', `f 1/1/1 2/1/${beyond} 3/${beyond}/1`);
+      expect([normals, uvs]).toEqual([undefined, undefined]);
+      expect(warnings).toMatchObject([
+        { code: 'uvs-bad', count: 1 },
+        { code: 'normals-bad', count: 1 },
+      ]);
+    }
+  });
+
   it('leaves out lines and points, and says so', () => {
     const { triangles, warnings } = read(...SQUARE, 'l 1 2', 'p 1', 'p 2');
     expect(triangles).toHaveLength(0);

@@ -196,6 +196,7 @@ describe('the format of a file', () => {
     expect(fileFormat(bytesOf('glTF\x02\0\0\0'), 'a.obj')).toBe('GLB');
     expect(fileFormat(bytesOf(stl(box)), 'a.obj')).toBe('STL');
     expect(fileFormat(bytesOf(ply(box)), 'a.glb')).toBe('PLY');
+    expect(fileFormat(new Uint8Array(200), 'a.glb')).toBe('GLB');
     expect(fileFormat(bytesOf('solid state physics\n'), 'a.obj')).toBe('OBJ');
     expect(fileFormat(bytesOf(`${'\n'.repeat(4000)}`), 'a.obj')).toBe('OBJ');
   });

@@ -9,7 +9,7 @@ interface Faces {
 }
 
 /** Ear clipping takes quadratic time at worst, some seconds for this sum of squares of the numbers of corners. */
-const MAX_SQUARES = 1e9;
+const MAX_SQUARES = 3e8;
 
 type Vector = [number, number, number];
 

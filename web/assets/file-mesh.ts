@@ -108,10 +108,10 @@ function placeVertices(
   const high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (let vertex = 0; vertex < isUsed.length; vertex++) {
     if (!isUsed[vertex]) continue;
-    for (const axis of [0, 1, 2] as const) {
+    for (let axis = 0; axis < 3; axis++) {
       const value = places[3 * vertex + axis] as number;
-      if (value < low[axis]) low[axis] = value;
-      if (value > high[axis]) high[axis] = value;
+      if (value < (low[axis] as number)) low[axis] = value;
+      if (value > (high[axis] as number)) high[axis] = value;
     }
   }
   const origin = chooseOrigin(low, high);

@@ -1,17 +1,24 @@
-/** For each vertex of n×3 positions the first one at its place, as floats: −0 is 0, and every NaN is one. */
+/** A hash table's slots for so many entries: a power of two, less one, of which at most three quarters are taken. */
+const maskFor = (count: number) => 2 ** Math.ceil(Math.log2((count * 4) / 3 + 1)) - 1;
+
+const MINUS_ZERO = 0x8000_0000;
+
+/** For each vertex of n×3 positions the first one at its place, as floats: −0 is 0. */
 export function joinVertices(positions: ArrayLike<number>): Uint32Array {
-  const count = positions.length / 3;
+  const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
+  const words = new Uint32Array(floats.buffer, floats.byteOffset, floats.length);
+  const word = (i: number) => (words[i] === MINUS_ZERO ? 0 : (words[i] as number));
+  const count = floats.length / 3;
   const first = new Uint32Array(count);
-  const mask = 2 ** Math.ceil(Math.log2(count * 2 + 1)) - 1;
+  const mask = maskFor(count);
   const table = new Int32Array(mask + 1).fill(-1);
-  const floats = new Float32Array(positions.length);
-  for (let i = 0; i < floats.length; i++) floats[i] = (positions[i] as number) + 0;
-  const words = new Uint32Array(floats.buffer);
   for (let v = 0; v < count; v++) {
-    const [x, y, z] = [words[3 * v] as number, words[3 * v + 1] as number, words[3 * v + 2] as number];
+    const x = word(3 * v);
+    const y = word(3 * v + 1);
+    const z = word(3 * v + 2);
     let slot = mixed(x, y, z) & mask;
     for (let at = table[slot] as number; at !== -1; at = table[slot] as number) {
-      if (words[3 * at] === x && words[3 * at + 1] === y && words[3 * at + 2] === z) break;
+      if (word(3 * at) === x && word(3 * at + 1) === y && word(3 * at + 2) === z) break;
       slot = (slot + 1) & mask;
     }
     if (table[slot] === -1) table[slot] = v;
@@ -23,20 +30,17 @@ export function joinVertices(positions: ArrayLike<number>): Uint32Array {
 /** How many triangles have the three vertices of one before them, in whatever order; `onFirst` gets the first of them. */
 export function countDoubled(triangles: Uint32Array, onFirst: (triangle: number) => void): number {
   const count = triangles.length / 3;
-  const mask = 2 ** Math.ceil(Math.log2(count * 2 + 1)) - 1;
+  const mask = maskFor(count);
   const table = new Int32Array(mask + 1).fill(-1);
   let doubled = 0;
-  const sorted = new Uint32Array(triangles.length);
+  const lowOf = (t: number) => Math.min(triangles[t] as number, triangles[t + 1] as number, triangles[t + 2] as number);
+  const highOf = (t: number) => Math.max(triangles[t] as number, triangles[t + 1] as number, triangles[t + 2] as number);
+  const sumOf = (t: number) => (triangles[t] as number) + (triangles[t + 1] as number) + (triangles[t + 2] as number);
   for (let t = 0; t < count; t++) {
-    const [a, b, c] = [triangles[3 * t] as number, triangles[3 * t + 1] as number, triangles[3 * t + 2] as number];
-    const [low, high] = [Math.min(a, b, c), Math.max(a, b, c)];
-    const middle = a + b + c - low - high;
-    sorted[3 * t] = low;
-    sorted[3 * t + 1] = middle;
-    sorted[3 * t + 2] = high;
-    let slot = mixed(low, middle, high) & mask;
+    const [low, high, sum] = [lowOf(3 * t), highOf(3 * t), sumOf(3 * t)];
+    let slot = mixed(low, sum, high) & mask;
     for (let at = table[slot] as number; at !== -1; at = table[slot] as number) {
-      if (sorted[3 * at] === low && sorted[3 * at + 1] === middle && sorted[3 * at + 2] === high) break;
+      if (lowOf(3 * at) === low && highOf(3 * at) === high && sumOf(3 * at) === sum) break;
       slot = (slot + 1) & mask;
     }
     if (table[slot] === -1) table[slot] = t;

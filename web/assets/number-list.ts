@@ -1,10 +1,10 @@
-/** A typed array that grows. Its length is bounded by what the file holds, since every number pushed was read from it. */
+/** A typed array that grows, from one of a length that was checked, or of none. Its length is bounded by what the file holds, since every number pushed was read from it. */
 export class NumberList<T extends Float64Array | Float32Array | Uint32Array> {
   length = 0;
   #array: T;
 
-  constructor(initial: T) {
-    this.#array = initial;
+  constructor(room: T) {
+    this.#array = room;
   }
 
   push(value: number): void {
@@ -22,6 +22,6 @@ export class NumberList<T extends Float64Array | Float32Array | Uint32Array> {
 
   /** Exactly what was pushed. */
   finish(): T {
-    return this.#array.slice(0, this.length) as T;
+    return (this.length === this.#array.length ? this.#array : this.#array.slice(0, this.length)) as T;
   }
 }

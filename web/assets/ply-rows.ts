@@ -3,12 +3,12 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { PassedOver } from './file-warnings.ts';
 import type { PlyElement, PlyHeader, PlyType } from './ply-header.ts';
 import { plyBytes } from './ply-header.ts';
-import { lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
+import { lineError, parseDecimal, quote, type TextSource, textLines, wordsOf } from './text-lines.ts';
 
 /** Reads rows in the file's order. Every read was checked to lie in the file. */
 export interface PlyRows {
-  /** Goes to the next row; `what` names it for errors. */
-  begin(what: string): void;
+  /** Goes to the next row; `what` and its number name it for errors. */
+  begin(what: string, row: number): void;
   /** A number; NaN for a word of a text that is none. */
   read(type: PlyType): number;
   skip(type: PlyType, count: number): void;
@@ -41,17 +41,17 @@ class TextRows implements PlyRows {
     this.#lines = textLines(source.bytes.subarray(start), firstLine);
   }
 
-  begin(what: string): void {
+  begin(what: string, row: number): void {
     for (let line = this.#lines.next(); !line.done; line = this.#lines.next()) {
       this.#line = line.value.number;
       const text = line.value.text.trim();
       if (text === '') continue;
-      this.#words = text.split(/\s+/);
+      this.#words = wordsOf(text);
       this.#next = 0;
       return;
     }
     throw new HandlebodyError('file-truncated', {
-      message: `The PLY file ends before ${what}.`,
+      message: `The PLY file ends before ${what} ${row}.`,
       remedy: 'Download or export it again.',
       culprit: { kind: 'byte', index: this.#source.byteOf(this.#source.bytes.length) },
     });
@@ -96,7 +96,8 @@ class BinaryRows implements PlyRows {
   readonly #passed: PassedOver;
   readonly #byteOf: (at: number) => number;
   #offset: number;
-  #row = '';
+  #what = '';
+  #row = 0;
 
   constructor({ bytes, byteOf }: TextSource, { start, format }: PlyHeader, passed: PassedOver) {
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -106,8 +107,9 @@ class BinaryRows implements PlyRows {
     this.#offset = start;
   }
 
-  begin(what: string): void {
-    this.#row = what;
+  begin(what: string, row: number): void {
+    this.#what = what;
+    this.#row = row;
   }
 
   read(type: PlyType): number {
@@ -149,13 +151,12 @@ class BinaryRows implements PlyRows {
   close(): void {
     const left = this.#view.byteLength - this.#offset;
     if (left === 0) return;
-    this.#row = 'last row';
     this.#passed.note('data-left-over', () => this.fail(`is followed by ${left} bytes`), left);
   }
 
   fail(what: string): HandlebodyError {
     return new HandlebodyError('file-invalid', {
-      message: `The PLY file's ${this.#row}, before byte ${this.#byteOf(this.#offset)}, ${what}.`,
+      message: `The PLY file's ${this.#what} ${this.#row}, before byte ${this.#byteOf(this.#offset)}, ${what}.`,
       remedy: 'The file is damaged: download or export it again.',
       culprit: { kind: 'byte', index: this.#byteOf(this.#offset) },
     });
@@ -163,7 +164,7 @@ class BinaryRows implements PlyRows {
 
   #truncated(): HandlebodyError {
     return new HandlebodyError('file-truncated', {
-      message: `The PLY file ends within ${this.#row}.`,
+      message: `The PLY file ends within ${this.#what} ${this.#row}.`,
       remedy: 'Download or export it again.',
       culprit: { kind: 'byte', index: this.#byteOf(this.#view.byteLength) },
     });
@@ -172,8 +173,9 @@ class BinaryRows implements PlyRows {
 
 /** Reads past an element, row by row. */
 export function skipElement(rows: PlyRows, { name, count, properties }: PlyElement): void {
+  const what = quote(name);
   for (let row = 0; row < count; row++) {
-    rows.begin(`${quote(name)} ${row}`);
+    rows.begin(what, row);
     for (const { type, lengthType } of properties) rows.skip(type, lengthType ? listLength(rows, lengthType) : 1);
     rows.end();
   }

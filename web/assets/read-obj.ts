@@ -4,7 +4,7 @@ import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
 import { perVertex } from './obj-attributes.ts';
 import { statements } from './obj-statements.ts';
-import { lineError, parseDecimal, quote, type TextSource } from './text-lines.ts';
+import { lineError, parseDecimal, quote, type TextSource, wordsOf } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -98,9 +98,9 @@ export function readObj(given: FileBytes, options: ReadOptions = {}): FileMesh {
       return;
     }
     for (let i = 1; i <= size; i++) {
-      const [v = '', vt = '', vn = '', ...rest] = (words[i] as string).split('/');
-      if (rest.length > 0)
-        throw fail(line, `has ${quote(words[i] as string)} where a corner such as 1, 1/2, 1//3 or 1/2/3 should be`);
+      const word = words[i] as string;
+      const [v = '', vt = '', vn = '', ...rest] = word.includes('/') ? word.split('/') : [word];
+      if (rest.length > 0) throw fail(line, `has ${quote(word)} where a corner such as 1, 1/2, 1//3 or 1/2/3 should be`);
       corners.v.push(resolve('v', v, line) - 1);
       corners.vt.push(vt === '' ? 0 : resolve('vt', vt, line));
       corners.vn.push(vn === '' ? 0 : resolve('vn', vn, line));
@@ -110,7 +110,7 @@ export function readObj(given: FileBytes, options: ReadOptions = {}): FileMesh {
   };
 
   for (const { text, line } of statements(source)) {
-    const words = text.split(/\s+/);
+    const words = wordsOf(text);
     const keyword = words[0] as string;
     if (keyword === 'v') readVertex(words, line);
     else if (keyword === 'vt' || keyword === 'vn') readRow(keyword, words, line);
@@ -166,7 +166,7 @@ function describeBad(words: readonly string[], needed: number): string {
 function badVertex(source: TextSource, vertex: number): HandlebodyError {
   let before = 0;
   for (const { text, line } of statements(source)) {
-    const words = text.split(/\s+/);
+    const words = wordsOf(text);
     if (words[0] === 'v' && before++ === vertex) return lineError(source, line, { format: FORMAT, what: describeBad(words, 3) });
   }
   throw new Error(`no vertex ${vertex}`);

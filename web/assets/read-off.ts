@@ -2,7 +2,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkCounts, type FileMesh, finishNormals, makeSurface } from './file-mesh.ts';
 import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
-import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
+import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines, wordsOf } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -124,7 +124,7 @@ class Rows {
       const text = (comment === -1 ? line.value.text : line.value.text.slice(0, comment)).trim();
       if (text === '') continue;
       this.line = line.value.number;
-      this.words = text.split(/\s+/);
+      this.words = wordsOf(text);
       return true;
     }
     return false;

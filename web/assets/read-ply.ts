@@ -126,7 +126,7 @@ function allocateVertices({ count, properties }: PlyElement): Vertices {
 
 function readVertices(rows: PlyRows, { count, properties }: PlyElement, { targets }: Vertices): void {
   for (let vertex = 0; vertex < count; vertex++) {
-    rows.begin(`vertex ${vertex}`);
+    rows.begin('vertex', vertex);
     for (let i = 0; i < properties.length; i++) {
       const { type, lengthType } = properties[i] as PlyProperty;
       const target = targets[i];
@@ -146,7 +146,7 @@ function badVertex(source: TextSource, header: PlyHeader, element: PlyElement, v
   const rows = plyRows(source, header, new PassedOver({}));
   for (const each of header.elements.slice(0, header.elements.indexOf(element))) skipElement(rows, each);
   skipElement(rows, { ...element, count: vertex });
-  rows.begin(`vertex ${vertex}`);
+  rows.begin('vertex', vertex);
   for (const { name, type, lengthType } of element.properties) {
     if (lengthType || !POSITION_NAMES.includes(name)) rows.skip(type, lengthType ? listLength(rows, lengthType) : 1);
     else if (Number.isNaN(heldByFloat(rows.read(type)))) return rows.fail(`has no finite number for ${name} of vertex ${vertex}`);
@@ -224,8 +224,9 @@ function* vertexLists(rows: PlyRows, { name, count, properties }: PlyElement): G
       remedy: 'Export the model again.',
     });
   }
+  const what = quote(name);
   for (let row = 0; row < count; row++) {
-    rows.begin(`${quote(name)} ${row}`);
+    rows.begin(what, row);
     for (const property of properties) {
       const { type, lengthType } = property;
       const length = lengthType ? listLength(rows, lengthType) : 1;

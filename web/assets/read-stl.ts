@@ -2,7 +2,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { checkCounts, type FileMesh, makeSurface } from './file-mesh.ts';
 import { PassedOver, type ReadOptions } from './file-warnings.ts';
 import { NumberList } from './number-list.ts';
-import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines } from './text-lines.ts';
+import { heldByFloat, lineError, parseDecimal, quote, type TextSource, textLines, wordsOf } from './text-lines.ts';
 import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
@@ -15,9 +15,9 @@ const CTRL_Z = 0x1a;
 
 /** Corners as they are read: each has a vertex of its own. */
 interface Corners {
-  readonly positions: NumberList<Float64Array>;
-  readonly sizes: NumberList<Uint32Array>;
-  readonly passed: PassedOver;
+  readonly positions: Float64Array;
+  readonly sizes: Uint32Array;
+  readonly badVertex: (vertex: number) => HandlebodyError;
 }
 
 /**
@@ -40,16 +40,14 @@ interface Corners {
 export function readStl(given: FileBytes, options: ReadOptions = {}): FileMesh {
   const passed = new PassedOver(options);
   const bytes = toBytes(given);
-  const corners: Corners = { positions: new NumberList(new Float64Array()), sizes: new NumberList(new Uint32Array()), passed };
-  const badVertex = isBinaryStl(bytes)
-    ? readBinary(bytes, corners)
-    : readText(withoutPadding(textSource(bytes), passed, FORMAT), corners);
-  const positions = corners.positions.finish();
+  const { positions, sizes, badVertex } = isBinaryStl(bytes)
+    ? readBinary(bytes, passed)
+    : readText(withoutPadding(textSource(bytes), passed, FORMAT), passed);
   const surface = makeSurface({
     format: FORMAT,
     positions,
-    corners: Uint32Array.from({ length: positions.length / 3 }, (_, i) => i),
-    sizes: corners.sizes.finish(),
+    corners: new Uint32Array(positions.length / 3).map((_, i) => i),
+    sizes,
     hasFaces: true,
     passed,
     badVertex,
@@ -78,9 +76,7 @@ export function isExact(bytes: Uint8Array): boolean {
 const viewOf = (bytes: Uint8Array) => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 const countOf = (bytes: Uint8Array) => viewOf(bytes).getUint32(COUNT_AT, true);
 
-type BadVertex = (vertex: number) => HandlebodyError;
-
-function readBinary(bytes: Uint8Array, { positions, sizes, passed }: Corners): BadVertex {
+function readBinary(bytes: Uint8Array, passed: PassedOver): Corners {
   const count = bytes.length < START ? 1 : countOf(bytes);
   const end = START + ROW * count;
   if (end > bytes.length) {
@@ -98,22 +94,25 @@ function readBinary(bytes: Uint8Array, { positions, sizes, passed }: Corners): B
       culprit: { kind: 'byte', index: at },
     });
   const view = viewOf(bytes);
+  const positions = new Float64Array(9 * count);
+  let out = 0;
   for (let start = START; start < end; start += ROW) {
     for (let i = 0; i < 9; i++) {
-      positions.push(heldByFloat(view.getFloat32(start + FIRST_CORNER + 4 * i, true)));
+      positions[out++] = heldByFloat(view.getFloat32(start + FIRST_CORNER + 4 * i, true));
     }
-    sizes.push(3);
     if (view.getUint16(start + REST, true) !== 0) passed.note('attributes-left-out', () => fail(start + REST, 'has a color'));
   }
   const left = bytes.length - end;
   if (left > 0) passed.note('data-left-over', () => fail(end, `goes on for ${left} bytes behind its last triangle`), left);
-  return (vertex) => {
+  const badVertex = (vertex: number) => {
     const at = START + ROW * Math.floor(vertex / 3) + FIRST_CORNER + 12 * (vertex % 3);
     return fail(at, `has a corner without a finite position in triangle ${Math.floor(vertex / 3)}`);
   };
+  return { positions, sizes: new Uint32Array(count).fill(3), badVertex };
 }
 
-function readText(source: TextSource, { positions, sizes, passed }: Corners): BadVertex {
+function readText(source: TextSource, passed: PassedOver): Corners {
+  const [positions, sizes] = [new NumberList(new Float64Array()), new NumberList(new Uint32Array())];
   const lines = new NumberList(new Uint32Array());
   const fail = (line: number, what: string) => lineError(source, line, { format: FORMAT, what });
   // Corners of the loop that is being read; −1 outside.
@@ -131,7 +130,7 @@ function readText(source: TextSource, { positions, sizes, passed }: Corners): Ba
     }
   };
   for (const { text, number } of textLines(source.bytes)) {
-    const words = text.trim().split(/\s+/);
+    const words = wordsOf(text.trim());
     last = number;
     for (let i = 0; i < words.length; i++) {
       const word = (words[i] as string).toLowerCase();
@@ -166,5 +165,6 @@ function readText(source: TextSource, { positions, sizes, passed }: Corners): Ba
       culprit: { kind: 'byte', index: source.byteOf(source.bytes.length) },
     });
   }
-  return (vertex) => fail(lines.at(vertex), 'has a vertex without three finite numbers');
+  const badVertex = (vertex: number) => fail(lines.at(vertex), 'has a vertex without three finite numbers');
+  return { positions: positions.finish(), sizes: sizes.finish(), badVertex };
 }
