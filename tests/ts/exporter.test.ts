@@ -17,7 +17,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import { readBody, readGlb, readPoseSpaces } from '../../web/assets/index.ts';
+import { checkGlb, readBody, readGlb, readPoseSpaces } from '../../web/assets/index.ts';
 import {
   type ExportedData,
   handlebodyData,
@@ -129,6 +129,16 @@ describe('handlebodyExporterPlugin', () => {
     const json = (await exporter.parseAsync(gltf.scene)) as { extensionsUsed: string[]; extensions: Record<string, object> };
     expect(json.extensionsUsed).toContain('HANDLEBODY_body');
     expect(json.extensions.HANDLEBODY_body).toMatchObject({ positionsHash: hash });
+  });
+
+  it('writes no matrix where it need not: what is flat cannot be taken apart again', async () => {
+    const object = crossed();
+    object.children[1]?.scale.set(1.1, 0.7, 0);
+    object.children[1]?.rotation.set(0.3, 0.2, 0.1);
+    const body = bodyOf(object);
+    const glb = await exported(object, { body });
+    expect(handlebodyData(await loaded(glb)).body?.positionsHash).toBe(body.positionsHash);
+    expect((checkGlb(glb).json.nodes as object[]).some((node) => 'matrix' in node)).toBe(false);
   });
 
   it('takes a scene, and a body among other things in it', async () => {

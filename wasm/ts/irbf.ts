@@ -5,19 +5,15 @@ import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap, Scratch } from './heap.ts';
+import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
 import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
 export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
 
-/** Numbers a handle takes in `targets`: position xyz, quaternion xyzw, scale xyz. */
-const TARGET_SIZE = 10;
 /** Made once, so that a frame allocates nothing. */
 const FROM_MODEL = { stride: TARGET_SIZE, sign: -1 } as const;
-
-/** The largest number that the positions of a mesh can hold: they are floats. */
-const FLOAT_MAX = 3.4028234663852886e38;
 
 /**
  * The deformation of a baked body by handles (paper 001, §2 and appendix): set handles, write their `targets`, `solve`, `deform`.
@@ -44,6 +40,8 @@ export class Irbf {
   #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
   #targets = new Float64Array();
+  /** 1 for a handle that turns and scales. */
+  #kinds = new Uint32Array();
   #hasRestNormals = false;
 
   /** @internal Use `Handlebody.irbf`. Takes the solver's pointer, and the number of a caller's kernel (0 for none). */
@@ -112,6 +110,7 @@ export class Irbf {
       runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
     });
     this.#handles = handles.length;
+    this.#kinds = kinds;
     this.#targets = heap
       .f64(
         heap.call((e) => e.hb_irbf_targets(irbf)),
@@ -123,7 +122,7 @@ export class Irbf {
 
   /**
    * Local/global iterations from where the last call stopped: a few in every frame keep a drag smooth, and go on converging when it
-   * rests. On bad targets it throws and the last solution stays: 'target-not-finite' also where a place, or the model grown by a scale, is
+   * rests. On bad targets it throws and the last solution stays: 'target-not-finite' also where the model, grown by a scale, is
    * beyond what floats can hold.
    */
   solve(options: SolveOptions = {}): SolveReport {
@@ -132,7 +131,7 @@ export class Irbf {
     const maxIterations = options.maxIterations ?? SOLVE_DEFAULTS.maxIterations;
     const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
     const accelerate = options.accelerate ?? SOLVE_DEFAULTS.accelerate;
-    this.#checkTargets();
+    checkScales(this.#targets, this.#kinds, this.#body.normalization.diagonal);
     const targets = heap.call((e) => e.hb_irbf_targets(irbf));
     const given = heap.f64(targets, this.#targets.length);
     given.set(this.#targets);
@@ -289,23 +288,6 @@ export class Irbf {
     });
   }
 
-  #checkTargets(): void {
-    const { diagonal } = this.#body.normalization;
-    for (let i = 0; i < this.#targets.length; i++) {
-      const part = i % TARGET_SIZE;
-      const target = this.#targets[i] as number;
-      const isTurn = part >= 3 && part < 7;
-      // What is no number at all the solver refuses by itself.
-      if (isTurn || !Number.isFinite(target) || Math.abs(target) * (part < 3 ? 1 : diagonal) <= FLOAT_MAX) continue;
-      const handle = Math.floor(i / TARGET_SIZE);
-      throw new HandlebodyError('target-not-finite', {
-        message: `Handle ${handle} has the ${part < 3 ? 'place' : 'scale'} ${target}, which takes the shape beyond what its numbers can hold.`,
-        remedy: 'Give targets of the size of the model: positions are floats, which end at 3.4e38.',
-        culprit: { kind: 'handle', index: handle },
-      });
-    }
-  }
-
   #checkLength(name: string, length: number): void {
     const expected = this.#length;
     if (length === expected) return;
@@ -314,19 +296,6 @@ export class Irbf {
       remedy: 'Give x, y and z for every vertex of the baked mesh, in its order.',
     });
   }
-}
-
-/** Refuses a shape that is not finite: of that nothing can be drawn, and files cannot hold it. */
-function checkHeld(rows: Float32Array): void {
-  let sum = 0;
-  for (let i = 0; i < rows.length; i++) sum += (rows[i] as number) - (rows[i] as number);
-  if (sum === 0) return;
-  const vertex = Math.floor(rows.findIndex((x) => !Number.isFinite(x)) / 3);
-  throw new HandlebodyError('target-not-finite', {
-    message: `Vertex ${vertex} goes beyond what the numbers of a shape can hold.`,
-    remedy: 'Give targets of the size of the model: positions are floats, which end at 3.4e38.',
-    culprit: { kind: 'vertex', index: vertex },
-  });
 }
 
 /** @internal See `Handlebody.irbf`. */

@@ -25,7 +25,9 @@ function fromBase64(payload: string): Uint8Array<ArrayBuffer> {
   // Percent signs may stand for "+", "/" and "=", and some writers use the letters of URLs.
   const text = (payload.includes('%') ? decodeURIComponent(payload) : payload).replace(/-/g, '+').replace(/_/g, '/');
   const binary = atob(text);
-  return Uint8Array.from({ length: binary.length }, (_, i) => binary.charCodeAt(i));
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);
+  return bytes;
 }
 
 function fromPercents(payload: string): Uint8Array<ArrayBuffer> {
@@ -33,8 +35,8 @@ function fromPercents(payload: string): Uint8Array<ArrayBuffer> {
   const out = new Uint8Array(text.length);
   let length = 0;
   for (let i = 0; i < text.length; i++) {
-    const digits = String.fromCharCode(...text.subarray(i + 1, i + 3));
-    const escaped = text[i] === PERCENT && /^[\da-f]{2}$/i.test(digits);
+    const digits = text[i] === PERCENT ? String.fromCharCode(...text.subarray(i + 1, i + 3)) : '';
+    const escaped = /^[\da-f]{2}$/i.test(digits);
     out[length++] = escaped ? Number.parseInt(digits, 16) : (text[i] as number);
     if (escaped) i += 2;
   }

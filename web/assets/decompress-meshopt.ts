@@ -44,16 +44,15 @@ function meshoptOf(owner: GltfJson): GltfJson | undefined {
 }
 
 /**
- * Buffers that only stand for what is decoded, and need not be there: all views of theirs are compressed, and the extension says so of
- * the buffer, or it has no address.
+ * Buffers that only stand for what is decoded, and need not be there: no view reads from them, neither plainly nor its stream, and the
+ * extension says so of the buffer, or it has no address.
  */
 export function fallbackBuffers(json: GltfJson): Set<number> {
-  const views = entriesOf(json, 'bufferViews').map(([, view]) => view);
-  const isFree = (buffer: number) => views.every((view) => view.buffer !== buffer || meshoptOf(view) !== undefined);
-  const isSource = (buffer: number) => views.some((view) => meshoptOf(view)?.buffer === buffer);
+  const needed = new Set<unknown>();
+  for (const [, view] of entriesOf(json, 'bufferViews')) needed.add((meshoptOf(view) ?? view).buffer);
   const free = entriesOf(json, 'buffers').filter(([i, buffer]) => {
     const marked = meshoptOf(buffer)?.fallback === true || (buffer.uri === undefined && i > 0);
-    return marked && isFree(i) && !isSource(i);
+    return marked && !needed.has(i);
   });
   return new Set(free.map(([i]) => i));
 }
@@ -87,7 +86,7 @@ export async function decompressMeshopt(
   }
   const decoder = await loadDecoder();
   const bytes = new Uint8Array(total);
-  const views = [...listOf(json, 'bufferViews')];
+  const [views, behind] = [listOf(json, 'bufferViews'), listOf(json, 'buffers').length];
   let offset = 0;
   streams.forEach(({ view, bytes: source, count, stride, mode, filter }, k) => {
     const length = count * stride;
@@ -97,7 +96,7 @@ export async function decompressMeshopt(
       throw damaged(`the compressed data of buffer view ${view} cannot be decoded`, cause);
     }
     const { extensions, ...plain } = views[view] as GltfJson;
-    views[view] = { ...plain, ...without(extensions), buffer: listOf(json, 'buffers').length, byteOffset: offset };
+    views[view] = { ...plain, ...without(extensions), buffer: behind, byteOffset: offset };
     offset += room[k] as number;
   });
   const fallbacks = fallbackBuffers(json);

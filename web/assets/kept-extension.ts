@@ -135,9 +135,12 @@ export function keepUnknown(
 
 const KEPT_PATHS = new Set(['', ...Object.keys(PLACES).map((place) => `${place}/[]`), 'meshes/[]/primitives/[]']);
 
+/** A file that names more than these is no model; each costs a look at everything. */
+const MOST = 100;
+
 /** An extension is lost whole where one of its uses would be: half of it may say the opposite. */
 function sortUnknown(json: GltfJson, names: readonly string[]): { lost: string[]; kept: string[] } {
-  const lost = new Set<string>();
+  const [asked, lost] = [new Set(names), new Set(names.slice(MOST))];
   const visit = (value: unknown, path: readonly string[]) => {
     if (Array.isArray(value)) {
       for (const member of value) visit(member, [...path, '[]']);
@@ -149,7 +152,7 @@ function sortUnknown(json: GltfJson, names: readonly string[]): { lost: string[]
       if (key !== 'extensions') continue;
       const isPlace = KEPT_PATHS.has(path.join('/'));
       for (const [name, said] of Object.entries(asObject(member) ?? {})) {
-        if (names.includes(name) && !(isPlace && asObject(said) && !pointsAtNumbers(said))) lost.add(name);
+        if (asked.has(name) && !(isPlace && asObject(said) && !pointsAtNumbers(said))) lost.add(name);
       }
     }
   };

@@ -5,7 +5,8 @@ import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 
 /**
  * Gives a mesh a pose space, in place of one that it has. A mesh made by `mesh.clone()` shares the pose space of the original, which keeps
- * it; `cloneDocument` and `mergeDocuments` of glTF-Transform copy pose spaces with their meshes.
+ * it; `cloneDocument` and `mergeDocuments` of glTF-Transform copy pose spaces with their meshes, and its `prune` keeps them. Its `dedup`
+ * takes meshes of the same primitives for one, whatever pose spaces they have: give it `propertyTypes` without meshes, or attach afterwards.
  *
  * Throws 'file-invalid', 'example-shape-mismatch' or 'example-not-finite' when it does not fit the mesh.
  *

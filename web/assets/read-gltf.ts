@@ -13,10 +13,11 @@ import { type ReadGltfOptions, toDocument } from './to-document.ts';
  * Rejects as `readGlb` does, and with 'file-unreadable' naming a file that is missing.
  *
  * ```ts
- * const files = new Map([...input.files ?? []].map((file) => [file.name, file]));
- * const resource = async (uri: string) => files.get(uri)?.arrayBuffer();
- * const document = await readGltf(await files.get('cow.gltf')!.arrayBuffer(), { resource });
- * const { mesh } = readMesh(document);
+ * const files = new Map([['cow.bin', new Uint8Array(36)]]); // by their names, from a disk, an upload, a fetch
+ * const resource = async (uri: string) => files.get(uri);
+ * const json = { asset: { version: '2.0' }, buffers: [{ uri: 'cow.bin', byteLength: 36 }] };
+ * const document = await readGltf(new TextEncoder().encode(JSON.stringify(json)), { resource });
+ * await writeFile('cow.glb', await writeGlb(document)); // everything inside
  * ```
  */
 export async function readGltf(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {

@@ -41,7 +41,8 @@ export function handlebodyData(gltf: Pick<GLTF, 'userData'>): HandlebodyData {
 }
 
 /**
- * Register it with a GLTFLoader to get `gltf.userData.handlebody`.
+ * Register it with a GLTFLoader to get `gltf.userData.handlebody`. GLTFExporter drops both extensions again, unless
+ * `handlebodyExporterPlugin` is registered there.
  *
  * ```ts
  * new GLTFLoader().register(handlebodyPlugin);
