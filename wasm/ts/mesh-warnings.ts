@@ -1,9 +1,9 @@
 import type { Culprit } from './errors.ts';
 
 /**
- * What is passed over in a mesh that operators are made of, by stable name: `triangles-flat` and `tetrahedra-flat` have no area or volume,
- * `triangles-doubled` and `tetrahedra-doubled` have the corners of another, in any order, and no triangle or tetrahedron uses
- * `vertices-unused`.
+ * What is passed over in a mesh that operators are made of, by stable name: `triangles-flat` and `tetrahedra-flat` have no area or volume, or
+ * hang on others by an edge with no more than rounding gives them; `triangles-doubled` and `tetrahedra-doubled` have the corners of another,
+ * in any order; no triangle or tetrahedron uses `vertices-unused`.
  */
 export type MeshWarningCode = 'triangles-flat' | 'triangles-doubled' | 'tetrahedra-flat' | 'tetrahedra-doubled' | 'vertices-unused';
 
