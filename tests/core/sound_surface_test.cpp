@@ -190,6 +190,12 @@ TEST_CASE("a spike without area is left out with its tip, and where nothing has 
   CHECK(as_set(sound.triangles) == as_set(box.triangles));
   CHECK(sound.flat == 2);
 
+  // Closed by itself, a tetrahedron on the line: nothing of it is left, so that no side of the box is open.
+  const Triangles needle = with(box.triangles, {Row(at(0), at(1), 8), Row(at(1), at(0), 9), Row(at(0), 8, 9), Row(8, at(1), 9)});
+  Points longer(10, 3);
+  longer << positions, 70, 0, 0;
+  CHECK(as_set(sound_surface(longer, needle).triangles) == as_set(box.triangles));
+
   Triangles line(2, 3);
   line << at(0), at(1), 8, at(0), at(0), 8;
   const SoundSurface nothing = sound_surface(positions, line);

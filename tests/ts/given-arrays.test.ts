@@ -3,6 +3,7 @@
  * another thread, afterwards or while it works: what would have come without. Arrays that are gone already are refused by a typed error.
  */
 import { describe, expect, test } from 'vitest';
+import { unshared } from '../../wasm/ts/copied.ts';
 import { HandlebodyError, load, type SkinWarning, type TypedArray } from '../../wasm/ts/index.ts';
 import { bakeInWorker } from '../../web/worker/index.ts';
 import { weighInWorker } from '../../web/worker/weigh-in-worker.ts';
@@ -330,24 +331,38 @@ describe.each(names)('%s', (name) => {
 
 test('options that change while a bake works are those that were given', async () => {
   const told: string[] = [];
+  const parts: number[] = [];
   const options = {
-    ...small,
-    distance: 'fast-marching' as string,
+    ...{ centers: 30, resolution: 64, spheres: 6, distance: 'fast-marching' },
     onWarning: ({ code }: { code: string }) => told.push(code),
-    onProgress: () => {},
+    onProgress: (part: number) => parts.push(part),
   };
-  const flat = mesh();
-  const given = { ...flat, triangles: Uint32Array.of(...flat.triangles, 0, 0, 1) };
+  // A flap without volume: the last thing that a bake finds out.
+  const { positions, triangles } = mesh();
+  const n = positions.length / 3;
+  const given = {
+    positions: Float64Array.of(...positions, 3, 0, 0, 4, 0, 0, 3, 1, 0),
+    triangles: Uint32Array.of(...triangles, n, n + 1, n + 2, 0, 0, 1),
+  };
   const work = hb.bake(given, options as never);
-  Object.assign(options, {
-    distance: 'heat',
-    centers: 3,
-    resolution: 8,
-    onWarning: () => told.push('another'),
-    onProgress: undefined,
-  });
+  expect(told).toEqual(['triangles-flat']);
+  const other = () => told.push('another');
+  Object.assign(options, { distance: 'heat', centers: 3, resolution: 8, onWarning: other, onProgress: other });
   const body = await work;
-  expect([body.distance, body.centers.length, told]).toEqual(['fast-marching', 8, ['triangles-flat']]);
+  expect([body.distance, body.centers.length, told]).toEqual(['fast-marching', 30, ['triangles-flat', 'part-outside']]);
+  expect(parts.at(-1)).toBe(1);
+});
+
+test('arrays that other threads may write are read once, from a copy; others are read where they are', () => {
+  const shared = new Float32Array(new SharedArrayBuffer(12));
+  shared.set([1, 2, 3]);
+  const copy = unshared(shared);
+  shared.fill(0);
+  expect(Array.from(copy)).toEqual([1, 2, 3]);
+  const own = Float32Array.of(1, 2);
+  expect(unshared(own)).toBe(own);
+  const list = [1, 2];
+  expect(unshared(list)).toBe(list);
 });
 
 test('a Node Buffer, which cuts no copies of itself, is copied as well', async () => {

@@ -179,6 +179,16 @@ describe('triangles that are no surface', () => {
 });
 
 describe('a handful of voxels', () => {
+  it.each([
+    [63, ['voxels-few']],
+    [64, []],
+  ])('is fewer than 64: %i', async (count, codes) => {
+    const volume = { dimensions: [count, 1, 1], spacing: 1, origin: [0, 0, 0], inside: new Uint8Array(count).fill(1) } as const;
+    const { warnings } = await baked(volume);
+    expect(warnings.map(({ code }) => code)).toEqual(codes);
+    for (const { remedy } of warnings) expect(remedy).toContain('smaller voxels');
+  });
+
   it.each(Array.from({ length: 20 }, (_, i) => i))('is told with a remedy that works (seed %i)', async (seed) => {
     const next = random(seed);
     const [length, width, resolution] = [

@@ -163,8 +163,9 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
   const TriangleSides as_given(triangles, positions.rows());
   Orientation result{false, false, 0, count_open(as_given)};
   result.closed = result.open_edges == 0;
-  const Triangles joined = result.closed ? triangles : without_seams(positions, triangles);
-  const Parts parts(positions, joined, TriangleSides(joined, positions.rows()));
+  const Triangles joined = result.closed ? Triangles(0, 3) : without_seams(positions, triangles);
+  const Parts parts =
+      result.closed ? Parts(positions, triangles, as_given) : Parts(positions, joined, TriangleSides(joined, positions.rows()));
 
   std::vector<std::size_t> inward, outward;  // closed parts that agree as they are
   std::vector<std::uint8_t> turn(static_cast<std::size_t>(triangles.rows()));

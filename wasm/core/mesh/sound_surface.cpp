@@ -48,30 +48,47 @@ bool is_even(const std::uint32_t* t) {
   return (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2;
 }
 
+/** Sorts a few keys, and what belongs to them; equal ones keep their order. */
+void sort_few(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+  if (count > 32) {
+    const std::vector<std::uint64_t> old_keys(keys, keys + count);
+    const Indices old_values(values, values + count);
+    const Indices order = sorted_indices(count, [&](std::uint32_t a, std::uint32_t b) {
+      return old_keys[a] < old_keys[b] || (old_keys[a] == old_keys[b] && a < b);
+    });
+    for (std::size_t i = 0; i < count; ++i) keys[i] = old_keys[order[i]], values[i] = old_values[order[i]];
+    return;
+  }
+  for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t k = i; k > 0 && keys[k] < keys[k - 1]; --k)
+      std::swap(keys[k], keys[k - 1]), std::swap(values[k], values[k - 1]);
+}
+
 /** The faces of the triangles in `of`, in the order of their first ones. */
 std::vector<Face> find_faces(const Triangles& triangles, const Indices& of, Index vertices) {
-  // Those with the same lowest corner are next to each other after one pass; few share it.
+  // Those with the same lowest corner are next to each other after one pass, and few share it: the other two are the key.
   Indices starts(static_cast<std::size_t>(vertices) + 1), order(of.size());
+  std::vector<std::uint64_t> keys(of.size());
   const auto corners = [&](std::uint32_t t) { return triangles.data() + 3 * std::size_t{t}; };
   for (const std::uint32_t t : of) ++starts[sorted_corners(corners(t))[0] + 1];
   for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
   Indices next = starts;
-  for (const std::uint32_t t : of) order[next[sorted_corners(corners(t))[0]]++] = t;
+  for (const std::uint32_t t : of) {
+    const auto [low, middle, high] = sorted_corners(corners(t));
+    const std::uint32_t place = next[low]++;
+    order[place] = t;
+    keys[place] = std::uint64_t{middle} << 32 | high;
+  }
   std::vector<Face> face_of(static_cast<std::size_t>(triangles.rows()), Face{no_index});
-  Indices few;
   for (std::size_t v = 0; v + 1 < starts.size(); ++v) {
-    few.assign(order.begin() + starts[v], order.begin() + starts[v + 1]);
-    sort(few, [&](std::uint32_t s, std::uint32_t t) {
-      const auto a = sorted_corners(corners(s)), b = sorted_corners(corners(t));
-      return a != b ? a < b : s < t;
-    });
-    for (std::size_t i = 0, first = 0; i < few.size(); ++i) {
-      if (i == 0 || sorted_corners(corners(few[i])) != sorted_corners(corners(few[first]))) {
+    sort_few(keys.data() + starts[v], order.data() + starts[v], starts[v + 1] - starts[v]);
+    for (std::uint32_t i = starts[v], first = i; i < starts[v + 1]; ++i) {
+      if (i == starts[v] || keys[i] != keys[first]) {
         first = i;
-        face_of[few[i]] = Face{few[i]};
+        face_of[order[i]] = Face{order[i]};
       } else {
-        Face& face = face_of[few[first]];
-        ++(is_even(corners(few[i])) == is_even(corners(few[first])) ? face.alike : face.opposite);
+        Face& face = face_of[order[first]];
+        ++(is_even(corners(order[i])) == is_even(corners(order[first])) ? face.alike : face.opposite);
       }
     }
   }
@@ -89,7 +106,7 @@ class Multiplicities {
   /** Of faces that occur more than once: one of them, an opposite pair, or all, for each patch of such faces. */
   void choose();
 
-  /** Of faces without area: none, where the surface is as closed without them. */
+  /** Of faces without area: none that has a corner off the others, and none where the surface is as closed without. */
   void leave_out(const std::vector<std::uint8_t>& flat);
 
   const std::vector<Face>& faces() const { return faces_; }
@@ -189,6 +206,12 @@ void Multiplicities::choose_for(const Indices& patch, const std::vector<int>& tu
 }
 
 void Multiplicities::leave_out(const std::vector<std::uint8_t>& flat) {
+  std::vector<std::uint8_t> used(static_cast<std::size_t>(shown_.maxCoeff()) + 1);
+  for (Index face = 0; face < shown_.rows(); ++face)
+    if (!flat[faces_[face].first])
+      for (int c = 0; c < 3; ++c) used[shown_(face, c)] = 1;
+  for (Index face = 0; face < shown_.rows(); ++face)
+    if (!used[shown_(face, 0)] || !used[shown_(face, 1)] || !used[shown_(face, 2)]) set(static_cast<std::size_t>(face), 0, 0);
   for (std::size_t face = 0; face < faces_.size(); ++face) {
     if (!flat[faces_[face].first]) continue;
     int gain = 0;
@@ -230,26 +253,20 @@ SoundSurface sound_surface(const Points& positions, const Triangles& triangles) 
     faces = as_chosen;
   }
 
-  std::vector<std::uint8_t> used(static_cast<std::size_t>(positions.rows()));
   sound.triangles.resize(static_cast<Index>(whole.size()), 3);
   Index row = 0;
-  const auto add = [&](const Face& face) {
-    for (int copy = 0; copy < face.alike + face.opposite; ++copy, ++row) {
-      sound.triangles.row(row) = triangles.row(face.first);
-      if (copy >= face.alike) sound.triangles.row(row).tail<2>().reverseInPlace();
+  const auto add = [&](bool without_area) {
+    for (const Face& face : faces) {
+      if ((flat[face.first] != 0) != without_area) continue;
+      for (int copy = 0; copy < face.alike + face.opposite; ++copy, ++row) {
+        sound.triangles.row(row) = triangles.row(face.first);
+        if (copy >= face.alike) sound.triangles.row(row).tail<2>().reverseInPlace();
+      }
     }
   };
-  for (const Face& face : faces) {
-    if (flat[face.first]) continue;
-    add(face);
-    if (face.alike + face.opposite > 0)
-      for (int c = 0; c < 3; ++c) used[triangles(face.first, c)] = 1;
-  }
+  add(false);
   sound.with_area = row;
-  for (const Face& face : faces) {
-    const auto corner = triangles.row(face.first);
-    if (flat[face.first] && used[corner[0]] && used[corner[1]] && used[corner[2]]) add(face);
-  }
+  add(true);
   sound.triangles.conservativeResize(row, 3);
   return sound;
 }
