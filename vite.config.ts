@@ -3,7 +3,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { GROUND, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
+import { GROUND, MODEL, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -46,7 +46,7 @@ export default defineConfig({
       input: Object.fromEntries(pages),
       output: {
         codeSplitting: {
-          groups: [THREE, GROUND, PAGE, VIEW],
+          groups: [THREE, GROUND, PAGE, MODEL, VIEW],
         },
       },
     },

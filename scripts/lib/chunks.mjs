@@ -4,7 +4,13 @@
 export const THREE = { name: 'three', test: /[\\/]node_modules[\\/]three[\\/]/ };
 
 /** What reads models and the solver have alike, and must not bring each other along. */
-export const GROUND = { name: 'ground', test: /wasm[\\/]ts[\\/](errors|hash)\./ };
+export const GROUND = { name: 'ground', test: /wasm[\\/]ts[\\/](errors|hash|origin|copied)\./ };
+
+/** What makes three.js objects and the solver's arrays of a file. */
+export const MODEL = {
+  name: 'load-model',
+  test: /web[\\/](three[\\/](decode|load-model|loader|object-part|plain-object|read-object)|assets[\\/](body-codec|check-(gltf|nodes)|concatenate|glb-chunks|gltf-json|open-gltf|predict-distances|schema|transform|voxel-runs))\./,
+};
 
 /** What a 3D view consists of. */
 export const VIEW = { name: 'view', test: /web[\\/](stage[\\/]|three[\\/]handles\.)/ };

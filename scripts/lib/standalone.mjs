@@ -2,7 +2,7 @@
 // handlebody.anywidget.js, which is all of it in one file, for notebooks.
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { ELEMENT, GROUND, THREE, VIEW } from './chunks.mjs';
+import { ELEMENT, GROUND, MODEL, THREE, VIEW } from './chunks.mjs';
 import { at } from './paths.mjs';
 
 /** Where Vite's list of which file asks for which lies. */
@@ -44,7 +44,7 @@ export async function buildStandalone(folder, { embed = false } = {}) {
         output: {
           entryFileNames: '[name].js',
           chunkFileNames: 'standalone/[name]-[hash].js',
-          codeSplitting: { groups: [THREE, GROUND, ELEMENT, VIEW] },
+          codeSplitting: { groups: [THREE, GROUND, ELEMENT, MODEL, VIEW] },
         },
       },
     },

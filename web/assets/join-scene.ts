@@ -5,7 +5,8 @@
 
 import { chooseOrigin } from '../../wasm/ts/origin.ts';
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
-import { concatenate, type DrawnRun, type MeshRange, type PartMode } from './concatenate.ts';
+import { checkSize, concatenate, type MeshRange } from './concatenate.ts';
+import { cornersOf, countTriangles, type DrawnRun, gatherUndrawn, type PartMode } from './drawn-corners.ts';
 import type { SceneChoices, SceneWarning } from './scene-choices.ts';
 import { type PartSkin, skinFrame } from './skin-frame.ts';
 import type { Matrix } from './transform.ts';
@@ -87,9 +88,26 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
     if (frame) reading.skins[number] = Array.from(frame.matrix);
     return { part, weights, positions, matrix: frame?.matrix ?? part.matrix };
   });
-  const { mesh, ranges } = concatenate(
-    parts.map(({ part: { indices, drawn, mode }, positions, matrix }) => ({ indices, drawn, mode, positions, matrix })),
+  const isCloud = surface.length === 0;
+  // Before anything is made as long as that: a file of a few bytes can ask for it by naming one mesh a million times.
+  const total = (count: (part: (typeof parts)[number]) => number) => parts.reduce((sum, part) => sum + count(part), 0);
+  checkSize(
+    total(({ positions }) => positions.length / 3),
+    total(({ part, positions }) => countTriangles(part, positions.length / 3)),
   );
+  const { mesh, ranges } = concatenate(
+    parts.map(({ part, positions, matrix }) => ({
+      positions,
+      matrix,
+      indices: isCloud ? undefined : cornersOf(part, positions.length / 3),
+    })),
+    isCloud,
+  );
+  if (isCloud)
+    parts.forEach(({ part }, i) => {
+      const { start, count } = ranges[i] as MeshRange;
+      gatherUndrawn((mesh.positions as Float32Array).subarray(3 * start, 3 * (start + count)), part);
+    });
 
   if (unshown.size > 0)
     warn(

@@ -1,7 +1,8 @@
 import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
-import { MAX_VERTICES, type MeshRange, type PartMode } from './concatenate.ts';
+import { MAX_VERTICES, type MeshRange } from './concatenate.ts';
+import type { PartMode } from './drawn-corners.ts';
 import { refuseInstancing } from './gpu-instancing.ts';
 import { joinScene, type ScenePart } from './join-scene.ts';
 import type { SceneChoices } from './scene-choices.ts';

@@ -1,6 +1,6 @@
 /** Which of a mesh's triangles three.js draws: its draw range, its groups, its materials. */
 import type { BufferGeometry, Material, Points, Mesh as ThreeMesh } from 'three';
-import type { DrawnRun } from '../assets/concatenate.ts';
+import type { DrawnRun } from '../assets/drawn-corners.ts';
 
 /** Undefined where all is drawn. `hidden` counts groups of materials that are not visible as well. */
 export function drawnRuns({ geometry, material }: ThreeMesh | Points, hidden: boolean): DrawnRun[] | undefined {

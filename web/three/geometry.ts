@@ -1,6 +1,6 @@
 /** three.js object trees to the solver's typed arrays. */
 import type { BufferAttribute, InterleavedBufferAttribute, LOD, Object3D, Points, Mesh as ThreeMesh } from 'three';
-import type { DrawnRun } from '../assets/concatenate.ts';
+import type { DrawnRun } from '../assets/drawn-corners.ts';
 import { joinScene, morphOffset, type ScenePart } from '../assets/join-scene.ts';
 import type { SceneChoices } from '../assets/scene-choices.ts';
 import { multiplyMatrices } from '../assets/transform.ts';

@@ -1,6 +1,6 @@
 /** Handlebody in three.js: "handlebody/three". three.js itself is a peer dependency; glTF-Transform is not needed. */
 
-export type { DrawnRun } from '../assets/concatenate.ts';
+export type { DrawnRun } from '../assets/drawn-corners.ts';
 export type { FileErrorCode, FileErrorCodes } from '../assets/error-codes.ts';
 export type { PoseSpaceData, StoredPoseSpace } from '../assets/pose-space-schema.ts';
 export type { SceneChoices, SceneWarning, SceneWarningCode } from '../assets/scene-choices.ts';

@@ -1,6 +1,6 @@
 /** The copies that three.js' InstancedMesh and BatchedMesh draw. */
 import { type BatchedMesh, type BufferGeometry, type InstancedMesh, Matrix4, Mesh, type Object3D } from 'three';
-import type { DrawnRun } from '../assets/concatenate.ts';
+import type { DrawnRun } from '../assets/drawn-corners.ts';
 import type { Matrix } from '../assets/transform.ts';
 
 /** One copy. */
