@@ -3,7 +3,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { GROUND, MODEL, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
+import { MODEL, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -26,8 +26,27 @@ const includes: Plugin = {
   },
 };
 
+/** Vite's own also waits for the style sheets of what is imported lazily, of which there are none: this one fetches the scripts together. */
+const preloads: Plugin = {
+  name: 'preloads',
+  enforce: 'pre',
+  load: (id) => (id === '\0vite/preload-helper.js' ? PRELOAD : undefined),
+};
+
+const PRELOAD = `
+const asked = new Set();
+export const __vitePreload = (load, files = [], from) => {
+  for (const file of files) {
+    const { href } = new URL(file, from);
+    if (asked.has(href)) continue;
+    asked.add(href);
+    document.head.append(Object.assign(document.createElement('link'), { rel: 'modulepreload', href }));
+  }
+  return load();
+};`;
+
 export default defineConfig({
-  plugins: [includes],
+  plugins: [includes, preloads],
   root: web,
   publicDir: '../public',
   base: './',
@@ -46,7 +65,7 @@ export default defineConfig({
       input: Object.fromEntries(pages),
       output: {
         codeSplitting: {
-          groups: [THREE, GROUND, PAGE, MODEL, VIEW],
+          groups: [THREE, PAGE, MODEL, VIEW],
         },
       },
     },

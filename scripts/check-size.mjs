@@ -14,8 +14,13 @@ const SITE = at('build', 'site');
 /** @typedef {Record<string, Chunk>} Manifest */
 /** @typedef {{ file: string, bytes: number }[]} Sizes */
 
-/** What only some models need, which those of the site do not: tangents, morph targets, skins, instances, parts that are not drawn whole, data elsewhere or compressed. */
-const OF_SOME_MODELS = [/^three\/(turned-tangents|geometry|live-morphs|instances-as-mesh)/, /^_morphs/, /^assets\/open-unusual/];
+/** What only some models need, which those of the site do not: tangents, morph targets, skins, instances, parts that are not drawn whole, data elsewhere or compressed, words for what is damaged. */
+const OF_SOME_MODELS = [
+  /^three\/(turned-tangents|geometry|live-morphs|instances-as-mesh)/,
+  /^_morphs/,
+  /^assets\/open-unusual/,
+  /^assets\/fault-words/,
+];
 
 /** The smaller wasm may take 185 kB of each (.size-limit.json). */
 const PAGES = [
@@ -24,7 +29,7 @@ const PAGES = [
     manifest: '.vite/manifest.json',
     page: 'studio/index.html',
     // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
-    later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/dropped-folder/],
+    later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json)/, /^three\/farthest/],
     budget: { 'with three.js': 405_000, without: 248_000 },
   },
   {
@@ -35,6 +40,7 @@ const PAGES = [
     later: [
       ...OF_SOME_MODELS,
       /^element\/(figure|pose)-showing/,
+      /^assets\/pose-space-schema/,
       /^figures\//,
       /^worker\//,
       /wasm\/ts\/index/,

@@ -11,6 +11,7 @@ import { attachBody, HANDLEBODY_BODY, readBody, readGlb, readMesh, writeGlb } fr
 import { addPredictions, fromLanes, predictionMisses, toLanes } from '../../web/assets/predict-distances.ts';
 import { parseBodyHeader } from '../../web/assets/schema.ts';
 import { countInRuns, fromRuns, toRuns } from '../../web/assets/voxel-runs.ts';
+import { inWordsAtOnce } from '../../web/assets/words-at-once.ts';
 import { handlebodyData, handlebodyPlugin } from '../../web/three/index.ts';
 import { loadModel } from '../../web/three/load-model.ts';
 import { dogHandles, readDog, readDogBytes } from './support/dog.ts';
@@ -108,7 +109,7 @@ describe('the dog as served, 200 centers', async () => {
     [[{ name: 'a', at: [0, 1, null] }], /no place of handle 0/],
     [[null], /no name for handle 0/],
   ])('is refused with handles that are none: %j', (handles, said) => {
-    expect(() => parseBodyHeader({ ...served, handles })).toThrow(said);
+    expect(() => inWordsAtOnce(() => parseBodyHeader({ ...served, handles }))).toThrow(said);
   });
 
   it('is refused with a handle on a vertex that it has not', async () => {

@@ -291,3 +291,13 @@ function permutations(items: readonly number[]): number[][] {
   if (items.length === 0) return [[]];
   return items.flatMap((item) => permutations(items.filter((other) => other !== item)).map((rest) => [item, ...rest]));
 }
+
+it('a part that was hidden when the mesh was read stays out of it when all are shown', () => {
+  const [one, two] = [box(), box()];
+  one.visible = false;
+  const object = new Group().add(one, two);
+  const { mesh } = meshFromObject(object);
+  one.visible = true;
+  expect(meshFromObject(object, { reading: mesh.reading ?? {} }).mesh.positions).toEqual(mesh.positions);
+  expect(meshFromObject(object).mesh.positions.length).toBe(2 * mesh.positions.length);
+});

@@ -9,6 +9,8 @@ const SCALES = 7;
 /** The largest number that the positions of a mesh can hold: they are floats. */
 const FLOAT_MAX = 3.4028234663852886e38;
 
+const REMEDY = 'Give targets of the size of the model, and scales near 1: positions are floats, which end at 3.4e38.';
+
 /**
  * Refuses scales with which a model of this diagonal outgrows its numbers; places far away the solver refuses by itself. `kinds` is 1 for
  * a handle that turns and scales. Throws 'target-not-finite' naming the handle.
@@ -20,8 +22,8 @@ export function checkScales(targets: Float64Array, kinds: Uint32Array, diagonal:
     if (i % TARGET_SIZE < SCALES || !kinds[handle] || !Number.isFinite(scale)) continue;
     if (Math.abs(scale) * diagonal <= FLOAT_MAX) continue;
     throw new HandlebodyError('target-not-finite', {
-      message: `Handle ${handle} has the scale ${scale}, which takes the shape beyond what its numbers can hold.`,
-      remedy: 'Give scales near 1: positions are floats, which end at 3.4e38.',
+      message: `Handle ${handle} has the scale ${scale}, beyond what the numbers of a shape can hold.`,
+      remedy: REMEDY,
       culprit: { kind: 'handle', index: handle },
     });
   }
@@ -35,7 +37,7 @@ export function checkHeld(rows: Float32Array): void {
   const vertex = Math.floor(rows.findIndex((x) => !Number.isFinite(x)) / 3);
   throw new HandlebodyError('target-not-finite', {
     message: `Vertex ${vertex} goes beyond what the numbers of a shape can hold.`,
-    remedy: 'Give targets of the size of the model: positions are floats, which end at 3.4e38.',
+    remedy: REMEDY,
     culprit: { kind: 'vertex', index: vertex },
   });
 }

@@ -21,6 +21,8 @@ const EXACT = 1e-9;
 const HALF_STEP = 0.5 / 255;
 const MOST_ROUNDED = 8;
 
+const REMEDY = 'Give every vertex weights that sum to 1, or say normalize: false to have weights as they are.';
+
 /** What is left of a row's weights by their signs canceling: below this part of their size a sum says nothing, and no row can be mended. */
 const LEAST_SUM = 1e-3;
 
@@ -47,7 +49,7 @@ export function withSumsOfOne(
     const off = Math.abs(sum - 1);
     if (off <= EXACT || !Number.isFinite(Math.fround(size))) continue;
     const vertex = first / handles;
-    if (!(sum > LEAST_SUM * size)) throw noSum(vertex, sum, size);
+    if (!(sum > LEAST_SUM * size)) throw noSum(vertex, sum);
     mended ??= Float64Array.from(weights);
     for (let j = first; j < first + handles; j++) mended[j] = (mended[j] as number) / sum;
     if (off <= HALF_STEP * Math.min(held, MOST_ROUNDED)) continue;
@@ -58,7 +60,7 @@ export function withSumsOfOne(
     onWarning({
       code: 'weights-not-one',
       message: `The weights of ${rows} ${rows === 1 ? 'vertex' : 'vertices'} do not sum to 1, and were divided by their sum. It is farthest from 1 at vertex ${worst}: ${worstSum}.`,
-      remedy: 'Normalize the weights where they were made, or say normalize: false to have them as they are.',
+      remedy: REMEDY,
       culprit: { kind: 'vertex', index: worst },
       sum: worstSum,
     });
@@ -66,14 +68,10 @@ export function withSumsOfOne(
   return mended ?? weights;
 }
 
-function noSum(vertex: number, sum: number, size: number): HandlebodyError {
+function noSum(vertex: number, sum: number): HandlebodyError {
   return new HandlebodyError('weights-missing', {
-    message:
-      size === 0
-        ? `No handle moves vertex ${vertex}: its weights are all 0.`
-        : `The weights of vertex ${vertex} sum to ${sum}, which no division makes 1.`,
-    remedy:
-      'Give every vertex a weight, and every part of the shape a handle; or say normalize: false to have weights as they are.',
+    message: `The weights of vertex ${vertex} sum to ${sum}, which no division makes 1.`,
+    remedy: REMEDY,
     culprit: { kind: 'vertex', index: vertex },
   });
 }

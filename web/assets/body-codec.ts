@@ -5,9 +5,10 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashWords } from '../../wasm/ts/hash.ts';
 import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
+import { Fault, inWords } from './fault.ts';
 import { loadDecoder, loadEncoder } from './meshopt.ts';
 import { addPredictions, fromLanes, predictionMisses, toLanes } from './predict-distances.ts';
-import { bodyInvalid, checkBody, checkStored, type StoredArrays, type StoredHeader } from './schema.ts';
+import { checkBody, checkStored, type StoredArrays, type StoredHeader } from './schema.ts';
 import { countInRuns, fromRuns, toRuns } from './voxel-runs.ts';
 
 /** Bytes of one of the codec's vertices: two codes. */
@@ -50,7 +51,7 @@ interface DecodeBodyInput {
  */
 export async function decodeBody(input: DecodeBodyInput): Promise<BodyData> {
   try {
-    return await decode(input);
+    return await inWords(() => decode(input));
   } catch (cause) {
     if (!(cause instanceof RangeError)) throw cause;
     throw new HandlebodyError('out-of-memory', {
@@ -76,9 +77,9 @@ async function decode({ header: { arraysHash, reading: _, ...header }, arrays, m
   try {
     decoder.decodeVertexBuffer(bytes, bytes.length / VERTEX, VERTEX, stored.distances);
   } catch (cause) {
-    throw bodyInvalid('has distances that cannot be decompressed', cause);
+    throw new Fault('compressed', [], { cause });
   }
-  if (hashArrays(stored, lanes) !== arraysHash) throw bodyInvalid('has arrays that are not as they were written');
+  if (hashArrays(stored, lanes) !== arraysHash) throw new Fault('changed');
   const codes = fromLanes(lanes, count);
   addPredictions(codes, { voxels, dimensions, centers: centers.length });
   const distances = new Uint16Array(count);

@@ -1,5 +1,5 @@
 /** The container of a GLB: header and chunks. Every byte that is read was checked to be there. */
-import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { Fault } from './fault.ts';
 
 const MAGIC = 0x46546c67; // "glTF"
 const JSON_CHUNK = 0x4e4f534a;
@@ -20,20 +20,16 @@ interface GlbChunks {
   readonly length: number;
 }
 
-/** The container alone, of what `isGlb`: throws as `checkGlb` does, but for what is in the JSON. */
+/** The container alone, of what `isGlb`: throws a `Fault` as `checkGlb` has it in words, but for what is in the JSON. */
 export function splitGlb(bytes: Uint8Array): GlbChunks {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < 20) throw truncated(`ends after ${bytes.length} bytes, within its header`, bytes.length);
+  if (bytes.length < 20) throw new Fault('glb-header', [bytes.length], { byte: bytes.length });
   const version = view.getUint32(4, true);
   if (version !== 2) {
-    throw new HandlebodyError('file-unsupported', {
-      message: `The file is a GLB of version ${version}; version 2 is read.`,
-      remedy: 'Export the model with a current tool.',
-      culprit: { kind: 'byte', index: 4 },
-    });
+    throw new Fault('glb-version', [version], { byte: 4 });
   }
   const length = view.getUint32(8, true);
-  if (length > bytes.length) throw truncated(`says it has ${length} bytes, but ${bytes.length} are there`, bytes.length);
+  if (length > bytes.length) throw new Fault('glb-length', [length, bytes.length], { byte: bytes.length });
 
   let json: Uint8Array | undefined;
   let bin: Uint8Array | undefined;
@@ -44,18 +40,18 @@ export function splitGlb(bytes: Uint8Array): GlbChunks {
     const type = view.getUint32(offset + 4, true);
     const start = offset + 8;
     if (start + chunkLength > length) {
-      throw invalid(`has a chunk of ${chunkLength} bytes at byte ${offset}, which runs past its end`, offset);
+      throw new Fault('glb-chunk', [chunkLength, offset], { byte: offset });
     }
     const chunk = bytes.subarray(start, start + chunkLength);
     if (index === 0) {
-      if (type !== JSON_CHUNK) throw invalid('does not begin with a JSON chunk', offset + 4);
+      if (type !== JSON_CHUNK) throw new Fault('glb-first', [], { byte: offset + 4 });
       json = chunk;
     } else if (index === 1 && type === BIN_CHUNK) {
       [bin, binStart] = [chunk, start];
     }
     offset = start + chunkLength;
   }
-  if (!json) throw invalid('has no JSON chunk', 12);
+  if (!json) throw new Fault('glb-json', [], { byte: 12 });
   return { ...parseJson(json), bin, binStart, length };
 }
 
@@ -65,23 +61,6 @@ function parseJson(chunk: Uint8Array): { json: unknown; text: string } {
     return { json: JSON.parse(text), text };
   } catch (cause) {
     const position = Number(/position (\d+)/.exec(String(cause))?.[1] ?? 0);
-    throw invalid('has a JSON chunk that is not JSON', 20 + position, cause);
+    throw new Fault('glb-text', [], { byte: 20 + position, cause });
   }
-}
-
-export function truncated(what: string, byte: number): HandlebodyError {
-  return new HandlebodyError('file-truncated', {
-    message: `The file is cut off: it ${what}.`,
-    remedy: 'Download or export it again.',
-    culprit: { kind: 'byte', index: byte },
-  });
-}
-
-function invalid(what: string, byte: number, cause?: unknown): HandlebodyError {
-  return new HandlebodyError('file-invalid', {
-    message: `The GLB is damaged: it ${what}.`,
-    remedy: 'Export the model again; a glTF validator says more.',
-    culprit: { kind: 'byte', index: byte },
-    cause,
-  });
 }

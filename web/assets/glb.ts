@@ -1,8 +1,9 @@
 import type { Document, Extension } from '@gltf-transform/core';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
-import { checkMagic } from './check-glb.ts';
+import { isGlb } from './glb-chunks.ts';
 import { createIo, type IoOptions } from './io.ts';
+import { refuseOther } from './look-alikes.ts';
 import { type GlbMesh, meshDocument } from './mesh-document.ts';
 import { openGltf } from './open-gltf.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
@@ -27,7 +28,7 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
  */
 export async function readGlb(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
   const glb = toBytes(bytes);
-  checkMagic(glb);
+  if (!isGlb(glb)) throw refuseOther(glb);
   return toDocument(await openGltf(glb, options), options);
 }
 

@@ -3,7 +3,7 @@
 /** GLB files to typed arrays and back, by glTF-Transform, and OBJ, PLY, STL and OFF to typed arrays: "handlebody/gltf-transform". Knows no three.js. */
 export { type BodyAccessorName, BodyExtension, BodyProperty, type IBodyProperty } from './body-extension.ts';
 export { checkGlb, type GlbParts } from './check-glb.ts';
-export { type CheckGltfOptions, checkGltf, checkRequiredExtensions } from './check-gltf.ts';
+export { checkGltf, checkRequiredExtensions } from './check-gltf.ts';
 export type { MeshRange } from './concatenate.ts';
 export type { FileErrorCode, FileErrorCodes } from './error-codes.ts';
 export type { FileMesh } from './file-mesh.ts';
@@ -29,4 +29,5 @@ export { BODY_VERSION, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE } from './schema.t
 export type { FileBytes } from './to-bytes.ts';
 export type { ReadGltfOptions } from './to-document.ts';
 export type { Matrix } from './transform.ts';
+export type { CheckGltfOptions } from './verify-gltf.ts';
 export { attachBody, detachBody } from './write-body.ts';

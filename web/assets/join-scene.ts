@@ -5,6 +5,7 @@
 
 import { chooseOrigin } from '../../wasm/ts/origin.ts';
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
+import { checkReading } from './check-reading.ts';
 import { checkSize, concatenate, type MeshRange } from './concatenate.ts';
 import { cornersOf, countTriangles, type DrawnRun, gatherUndrawn, type PartMode } from './drawn-corners.ts';
 import type { SceneChoices, SceneWarning } from './scene-choices.ts';
@@ -50,7 +51,7 @@ interface JoinedScene<Source> {
 /** Throws 'mesh-no-triangles', 'mesh-too-large' or 'mesh-index-out-of-range'. */
 export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: SceneChoices): JoinedScene<Source> {
   const warn = (code: SceneWarning['code'], message: string, remedy: string) => choices.onWarning?.({ code, message, remedy });
-  const known = choices.reading;
+  const known = choices.reading && checkReading(choices.reading);
   const reading = {
     skipped: [] as number[],
     morphs: {} as Record<number, readonly number[]>,

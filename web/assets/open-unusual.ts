@@ -1,18 +1,20 @@
 /** Opening what is no plain GLB: a .gltf, data in other files or compressed, or no glTF at all. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { checkGlb, type GlbParts } from './check-glb.ts';
+import type { GlbParts } from './check-glb.ts';
 import { decodeText } from './decode-text.ts';
+import { inWords } from './fault.ts';
 import { isGlb, splitGlb } from './glb-chunks.ts';
 import type { GltfReadOptions } from './gltf-warnings.ts';
+import { refuseOther } from './look-alikes.ts';
 import { plainGltf } from './plain-gltf.ts';
 
 export { packGlb } from './pack-glb.ts';
 
 /** Throws what `checkGlb` and `plainGltf` throw. */
 export async function openUnusual(bytes: Uint8Array, options?: GltfReadOptions): Promise<GlbParts> {
-  if (isGlb(bytes)) return plainGltf(splitGlb(bytes), options);
+  if (isGlb(bytes)) return plainGltf(await inWords(() => splitGlb(bytes)), options);
   if (looksLikeGltf(bytes)) return plainGltf({ json: parseGltf(bytes) }, options);
-  return checkGlb(bytes);
+  throw refuseOther(bytes);
 }
 
 /** Whether bytes are the text of a JSON object, in any of the encodings that editors write. */

@@ -1,11 +1,12 @@
 /** A glTF whose data lies anywhere and is compressed, as one that has everything inside and plain: JSON and one binary part. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { GlbParts } from './check-glb.ts';
-import { checkGltf } from './check-gltf.ts';
 import { decompressMeshopt, fallbackBuffers } from './decompress-meshopt.ts';
+import { inWords } from './fault.ts';
 import { damaged, entriesOf, imageType, listOf, Resources } from './fetch-resources.ts';
 import { type GltfJson, isObject } from './gltf-json.ts';
 import { decompressed, type GltfReadOptions } from './gltf-warnings.ts';
+import { verifyGltf } from './verify-gltf.ts';
 
 /** Parts of a file, not looked into. */
 interface RawParts {
@@ -20,7 +21,7 @@ interface RawParts {
  * Throws 'file-truncated' or 'file-unreadable' naming a buffer or image, and what `checkGltf` and `decompressMeshopt` throw.
  */
 export async function plainGltf({ json: value, bin }: RawParts, options: GltfReadOptions = {}): Promise<GlbParts> {
-  if (!isObject(value)) return { json: checkGltf(value), bin };
+  if (!isObject(value)) return { json: await inWords(() => verifyGltf(value)), bin };
   const resources = new Resources(options);
   const own = await fetchBuffers(value, bin, resources);
   const plain = await decompressMeshopt(value, own);
@@ -28,7 +29,7 @@ export async function plainGltf({ json: value, bin }: RawParts, options: GltfRea
   const { json, buffers } = await fetchImages(plain?.json ?? value, plain?.bytes ? [...own, plain.bytes] : own, resources);
   const bufferLengths = buffers.map(({ length }) => length);
   const fileLength = bufferLengths.reduce((sum, length) => sum + length, 0);
-  return join(checkGltf(json, { bufferLengths, fileLength }), buffers);
+  return join(await inWords(() => verifyGltf(json, { bufferLengths, fileLength })), buffers);
 }
 
 /** Every buffer, as long as it says or longer; one that nothing reads is empty. */

@@ -44,10 +44,9 @@ export type PoseSpaceInput = StoredPoseSpace<{ readonly weights?: readonly numbe
 export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: number }): PoseSpaceData {
   const space = asObject(json) ?? {};
   if (space.version !== POSE_SPACE_VERSION) {
-    const former = isNumber(space.version) && space.version < POSE_SPACE_VERSION;
     throw new HandlebodyError('file-unsupported', {
       message: `The pose space has format version ${show(space.version)}; this release reads version ${POSE_SPACE_VERSION}.`,
-      remedy: `${former ? '' : 'Update Handlebody, or '}export the pose space again with this release.`.replace(/^e/, 'E'),
+      remedy: 'Export the pose space again with this release, or update Handlebody.',
     });
   }
   if (!Array.isArray(space.dimensions) || space.dimensions.length === 0 || !Array.isArray(space.examples)) {

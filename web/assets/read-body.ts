@@ -2,6 +2,7 @@ import type { Document } from '@gltf-transform/core';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from './body-codec.ts';
 import type { BodyAccessorName, BodyProperty } from './body-extension.ts';
+import { inWords } from './fault.ts';
 import { readMesh } from './read-mesh.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays } from './schema.ts';
 
@@ -19,7 +20,7 @@ import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays }
 export async function readBody(document: Document): Promise<BodyData | undefined> {
   const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
   if (!property) return undefined;
-  const header = parseStoredHeader(property.getHeader());
+  const header = await inWords(() => parseStoredHeader(property.getHeader()));
   const names = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];
   const arrays = Object.fromEntries(names.map((name) => [name, property.getAccessor(name)?.getArray()?.slice()]));
   return decodeBody({

@@ -22,11 +22,13 @@
  * Solver space is scene space after node transforms, scaled to a unit diagonal; vertices are numbered through the triangle primitives of
  * the default scene in order, or through its points when it has no triangles. The extension is optional: viewers that do not know it
  * show the model as it is.
+ *
+ * Functions here throw a `Fault`, by the name of the code that it has in words.
  */
-import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, DistanceMethod, Mesh, MeshReading, NamedHandle } from '../../wasm/ts/types.ts';
-import { asObject, isNumber, show } from './gltf-json.ts';
+import { Fault } from './fault.ts';
+import { asObject, isNumber } from './gltf-json.ts';
 import { countInRuns } from './voxel-runs.ts';
 
 /** Root extension: the baked interior of the default scene. */
@@ -83,11 +85,7 @@ const CODES_PER_BYTE = 512;
 export function parseBodyHeader(json: unknown): BodyHeader {
   const body = asObject(json) ?? {};
   if (body.version !== BODY_VERSION) {
-    const former = isNumber(body.version) && body.version < BODY_VERSION;
-    throw new HandlebodyError('body-version', {
-      message: `The baked body has format version ${show(body.version)}; this release reads version ${BODY_VERSION}.`,
-      remedy: former ? 'Bake the model again with this release.' : 'Update Handlebody, or bake the model again with this release.',
-    });
+    throw new Fault('body-version', [body.version, BODY_VERSION]);
   }
   const normalization = asObject(body.normalization) ?? {};
   const grid = asObject(body.grid) ?? {};
@@ -103,36 +101,15 @@ export function parseBodyHeader(json: unknown): BodyHeader {
     },
     distanceScale: body.distanceScale as number,
     ...(body.handles !== undefined && { handles: namedHandles(body.handles) }),
-    ...(body.reading !== undefined && { reading: meshReading(body.reading) }),
+    // Who reads the scene again looks into it.
+    ...(body.reading !== undefined && { reading: body.reading as MeshReading }),
   };
-  if (!METHODS.includes(header.distance)) throw bodyInvalid(`has distances of no known method, ${show(body.distance)}`);
-  if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw bodyInvalid('has no hash of its positions');
-  if (!isNumber(header.distanceScale) || header.distanceScale < 0) throw bodyInvalid('has no distance scale');
+  if (!METHODS.includes(header.distance)) throw new Fault('method', [body.distance]);
+  if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw new Fault('hash');
+  if (!isNumber(header.distanceScale) || header.distanceScale < 0) throw new Fault('scale');
   const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
-  if (cells < 1 || cells > 0xffff_ffff) throw bodyInvalid(`has a grid of ${header.grid.dimensions.join('×')} voxels`);
+  if (cells < 1 || cells > 0xffff_ffff) throw new Fault('grid', [header.grid.dimensions]);
   return header;
-}
-
-/** More parts than real scenes have. */
-const MAX_PARTS = 1 << 16;
-
-function meshReading(json: unknown): MeshReading {
-  const { skipped = [], morphs = {}, skins = {} } = asObject(json) ?? bodyFails();
-  const isPart = (part: unknown) => Number.isInteger(part) && (part as number) >= 0 && (part as number) < MAX_PARTS;
-  const rows = (given: unknown, length?: number) => {
-    const entries = Object.entries(asObject(given) ?? bodyFails());
-    const sound = entries.every(
-      ([part, row]) =>
-        isPart(Number(part)) && Array.isArray(row) && row.every(isNumber) && (length === undefined || row.length === length),
-    );
-    return entries.length > MAX_PARTS || !sound ? bodyFails() : (Object.fromEntries(entries) as Record<number, number[]>);
-  };
-  if (!Array.isArray(skipped) || skipped.length > MAX_PARTS || !skipped.every(isPart)) return bodyFails();
-  return { skipped, morphs: rows(morphs), skins: rows(skins, 16) };
-}
-
-function bodyFails(): never {
-  throw bodyInvalid('does not say how its scene was read');
 }
 
 /** What a body says besides its arrays, checked: what both writers put into a file. Throws as `parseBodyHeader` does. */
@@ -146,13 +123,13 @@ export function headerOf(body: BodyData): BodyHeader {
 const MAX_HANDLES = 1000;
 
 function namedHandles(json: unknown): NamedHandle[] {
-  if (!Array.isArray(json) || json.length > MAX_HANDLES) throw bodyInvalid(`has no list of at most ${MAX_HANDLES} handles`);
+  if (!Array.isArray(json) || json.length > MAX_HANDLES) throw new Fault('handles', [MAX_HANDLES]);
   return json.map((entry, i) => {
     const { name, vertex, at } = asObject(entry) ?? {};
-    if (typeof name !== 'string') throw bodyInvalid(`has no name for handle ${i}`);
+    if (typeof name !== 'string') throw new Fault('handle-name', [i]);
     if (vertex === undefined) return { name, at: triple(at, `place of handle ${i}`) };
     if (isNumber(vertex) && Number.isInteger(vertex) && vertex >= 0) return { name, vertex };
-    throw bodyInvalid(`has handle ${i} on no vertex, ${show(vertex)}`);
+    throw new Fault('handle-vertex', [i, vertex]);
   });
 }
 
@@ -160,7 +137,7 @@ function namedHandles(json: unknown): NamedHandle[] {
 export function parseStoredHeader(json: unknown): StoredHeader {
   const header = parseBodyHeader(json);
   const { arraysHash } = asObject(json) ?? {};
-  if (typeof arraysHash !== 'string') throw bodyInvalid('has no hash of its arrays');
+  if (typeof arraysHash !== 'string') throw new Fault('arrays-hash');
   return { ...header, arraysHash };
 }
 
@@ -172,22 +149,22 @@ export function parseStoredHeader(json: unknown): StoredHeader {
 export function checkStored(arrays: { readonly [name in keyof StoredArrays]?: unknown }, { grid }: BodyHeader): StoredArrays {
   for (const [name, { array }] of Object.entries(BODY_ACCESSORS)) {
     if (arrays[name as keyof StoredArrays] instanceof array) continue;
-    throw bodyInvalid(`has no ${name}, or not as numbers of the right type`);
+    throw new Fault('array', [name]);
   }
   const stored = arrays as StoredArrays;
   const { centers, order, distances } = stored;
   const voxels = countInRuns(stored.voxels, gridSize(grid));
-  if (Number.isNaN(voxels)) throw bodyInvalid('has voxels that are no ascending runs inside its grid');
+  if (Number.isNaN(voxels)) throw new Fault('runs');
   checkCount(voxels, centers.length);
   if (voxels * centers.length > CODES_PER_BYTE * distances.length) {
-    throw bodyInvalid(`has ${distances.length} bytes of distances, too few for ${centers.length} centers × ${voxels} voxels`);
+    throw new Fault('few', [distances.length, centers.length, voxels]);
   }
   const seen = new Uint8Array(centers.length);
   for (const center of order) {
-    if (center >= seen.length || seen[center] === 1) throw bodyInvalid('stores the distances of a center twice');
+    if (center >= seen.length || seen[center] === 1) throw new Fault('twice');
     seen[center] = 1;
   }
-  if (order.length !== centers.length) throw bodyInvalid('lacks the distances of a center');
+  if (order.length !== centers.length) throw new Fault('lacking');
   return stored;
 }
 
@@ -199,32 +176,29 @@ export function checkStored(arrays: { readonly [name in keyof StoredArrays]?: un
 export function checkBody(body: Omit<BodyData, 'distances'> & { readonly distances?: Uint16Array }): void {
   const { voxels, centers, distances, spheres, grid, mesh } = body;
   for (const [name, array] of Object.entries({ voxels: Uint32Array, centers: Uint32Array, spheres: Float64Array })) {
-    if (!(body[name as 'voxels'] instanceof array)) throw bodyInvalid(`has no ${name}, or not as numbers of the right type`);
+    if (!(body[name as 'voxels'] instanceof array)) throw new Fault('array', [name]);
   }
   checkCount(voxels.length, centers.length);
   if ('distances' in body && (!(distances instanceof Uint16Array) || distances.length !== centers.length * voxels.length)) {
-    throw bodyInvalid(`has ${distances?.length} distances for ${centers.length} centers × ${voxels.length} voxels`);
+    throw new Fault('distances', [distances?.length, centers.length, voxels.length]);
   }
   const end = gridSize(grid);
   for (let i = 0, previous = -1; i < voxels.length; i++) {
     const voxel = voxels[i] as number;
-    if (voxel <= previous || voxel >= end) throw bodyInvalid(`has voxel ${voxel} out of order or outside its grid`);
+    if (voxel <= previous || voxel >= end) throw new Fault('voxel', [voxel]);
     previous = voxel;
   }
   // Before the centers: a body of another mesh is likely to name vertices that this one has not, and that is the better story.
   if (hashPositions(mesh.positions) !== body.positionsHash) {
-    throw new HandlebodyError('body-mismatch', {
-      message: 'The interior distances were baked for other vertex positions than this model has.',
-      remedy: 'Bake the model again after its last change: bake last.',
-    });
+    throw new Fault('body-other');
   }
   const vertices = mesh.positions.length / 3;
   const stray = centers.find((vertex) => vertex >= vertices);
-  if (stray !== undefined) throw bodyInvalid(`has a center on vertex ${stray} of ${vertices}`);
+  if (stray !== undefined) throw new Fault('center', [stray, vertices]);
   const lost = body.handles?.find((handle) => 'vertex' in handle && handle.vertex >= vertices);
-  if (lost) throw bodyInvalid(`has the handle “${lost.name}” on a vertex that the model has not`);
+  if (lost) throw new Fault('handle-lost', [lost.name]);
   if (spheres.length % 4 !== 0 || spheres.some((x, i) => !Number.isFinite(x) || (i % 4 === 3 && x < 0))) {
-    throw bodyInvalid('has spheres that are not four finite numbers each');
+    throw new Fault('spheres');
   }
 }
 
@@ -233,31 +207,18 @@ function gridSize({ dimensions: [nx, ny, nz] }: BodyData['grid']): number {
 }
 
 function checkCount(voxels: number, centers: number): void {
-  if (voxels === 0 || centers === 0) throw bodyInvalid('is empty');
+  if (voxels === 0 || centers === 0) throw new Fault('empty');
   if (voxels > MAX_VOXELS || voxels * centers > MAX_CODES) {
-    throw bodyInvalid(
-      `would have ${centers} centers × ${voxels} voxels; at most ${MAX_VOXELS} voxels and ${MAX_CODES} distances are stored`,
-      undefined,
-      'Bake with fewer centers or a lower resolution.',
-    );
+    throw new Fault('most', [centers, voxels, MAX_VOXELS, MAX_CODES]);
   }
 }
 
 function triple(value: unknown, name: string): [number, number, number] {
-  if (!Array.isArray(value) || value.length !== 3 || !value.every(isNumber)) throw bodyInvalid(`has no ${name} of three numbers`);
+  if (!Array.isArray(value) || value.length !== 3 || !value.every(isNumber)) throw new Fault('triple', [name]);
   return [value[0] as number, value[1] as number, value[2] as number];
 }
 
 function positive(value: unknown, name: string): number {
-  if (!isNumber(value) || value <= 0) throw bodyInvalid(`has no ${name} above zero`);
+  if (!isNumber(value) || value <= 0) throw new Fault('positive', [name]);
   return value;
-}
-
-/** @internal */
-export function bodyInvalid(
-  what: string,
-  cause?: unknown,
-  remedy = 'The file is damaged or was edited: bake the model again.',
-): HandlebodyError {
-  return new HandlebodyError('body-invalid', { message: `The baked body ${what}.`, remedy, cause });
 }

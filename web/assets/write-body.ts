@@ -4,6 +4,7 @@ import { encodeBody } from './body-codec.ts';
 import { type BodyAccessorName, BodyExtension, type BodyProperty } from './body-extension.ts';
 import { readMesh } from './read-mesh.ts';
 import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, headerOf } from './schema.ts';
+import { inWordsAtOnce } from './words-at-once.ts';
 
 /**
  * Puts a baked body into a document, in place of one that is there. Attach it last: whatever moves, adds or reorders vertices afterwards
@@ -21,9 +22,9 @@ import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, headerOf } from './schema.t
  * ```
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
-  const header = headerOf(body);
+  const header = inWordsAtOnce(() => headerOf(body));
   const checked = { ...body, ...header, mesh: readMesh(document, { reading: header.reading ?? {} }).mesh };
-  checkBody(checked);
+  inWordsAtOnce(() => checkBody(checked));
   const { arrays, arraysHash } = await encodeBody(checked);
 
   detachBody(document);

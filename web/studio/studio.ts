@@ -1,7 +1,6 @@
 import type { BakeWarning, BodyData, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { SceneWarning } from '../assets/scene-choices.ts';
 import type { View } from '../stage/view.ts';
-import { farthestVertices } from '../three/farthest.ts';
 import { fetchMaking } from '../three/fetch-making.ts';
 import { fetchModel } from '../three/fetch-model.ts';
 import { LiveBody } from '../three/live-body.ts';
@@ -14,7 +13,6 @@ import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
 import { besideIt } from './beside.ts';
 import { BodyScene } from './body-scene.ts';
-import { readHandles } from './handles-json.ts';
 import type { ModelSwitch } from './model-switch.ts';
 import { type ModelEntry, modelOf } from './models.ts';
 import { Placing } from './placing.ts';
@@ -39,6 +37,8 @@ interface StudioParts {
 export class Studio {
   readonly #parts: StudioParts;
   readonly #root = byId('studio');
+  readonly #warn = ({ code, message, remedy }: BakeWarning | SceneWarning) =>
+    void this.#warnings.push(new PageError(code, message, remedy));
   readonly #placing: Placing;
   readonly #readout = new Readout(byId('readout'));
   #switch: ModelSwitch | undefined;
@@ -180,12 +180,10 @@ export class Studio {
     signal: AbortSignal,
     entry: ModelEntry | undefined,
   ): Promise<BodyScene> {
-    const onWarning = ({ code, message, remedy }: SceneWarning) => this.#warnings.push(new PageError(code, message, remedy));
     const reading = model.body && (model.body.mesh.reading ?? {});
-    const { mesh, parts, normals } = await readObject(model.object, reading ? { reading } : { onWarning });
+    const { mesh, parts, normals } = await readObject(model.object, reading ? { reading } : { onWarning: this.#warn });
     const body = model.body ?? (await this.#bake(mesh, signal));
-    const spread = () => farthestVertices(body.mesh, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
-    const points = (body.handles ?? spread()).map(({ name, ...handle }) => ({ name, handle }));
+    const points = (body.handles ?? (await spreadHandles(body))).map(({ name, ...handle }) => ({ name, handle }));
     const [solver, making] = await Promise.all([this.#parts.solver, fetchMaking(model.object)]);
     const live = new LiveBody(solver, body, normals);
     const shown = new LiveGeometry(parts, making);
@@ -211,8 +209,7 @@ export class Studio {
     const { progress } = this.#parts;
     progress.begin('Finding the inside of your model…', () => this.#work?.abort());
     const { bakeInWorker } = await import('../worker/index.ts');
-    const onWarning = ({ code, message, remedy }: BakeWarning) => this.#warnings.push(new PageError(code, message, remedy));
-    const options = { resolution: OWN_RESOLUTION, signal, onProgress: (part: number) => progress.set(part), onWarning };
+    const options = { resolution: OWN_RESOLUTION, signal, onProgress: (part: number) => progress.set(part), onWarning: this.#warn };
     try {
       return await bakeInWorker(mesh, options);
     } catch (error) {
@@ -225,6 +222,7 @@ export class Studio {
   async #takeHandles(file: File): Promise<void> {
     const { messages } = this.#parts;
     try {
+      const { readHandles } = await import('./handles-json.ts');
       const orders = readHandles(await file.text());
       if (!this.#body) {
         throw new PageError(
@@ -238,4 +236,10 @@ export class Studio {
       messages.show(error);
     }
   }
+}
+
+/** Of a model that names none. */
+async function spreadHandles({ mesh }: BodyData) {
+  const { farthestVertices } = await import('../three/farthest.ts');
+  return farthestVertices(mesh, OWN_HANDLES).map((vertex, i) => ({ name: `Handle ${i + 1}`, vertex }));
 }

@@ -11,6 +11,7 @@ import { encodeBody } from '../assets/body-codec.ts';
 import { packGlb } from '../assets/pack-glb.ts';
 import { parsePoseSpace, poseSpaceDefinition } from '../assets/pose-space-schema.ts';
 import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, headerOf } from '../assets/schema.ts';
+import { inWordsAtOnce } from '../assets/words-at-once.ts';
 import { meshFromObject } from './geometry.ts';
 import type { HandlebodyData, LoadedPoseSpace } from './loader.ts';
 
@@ -115,8 +116,8 @@ async function writeBody(writer: Writer, body: BodyData): Promise<void> {
     });
   }
   const shapes = shapesAlone(writer);
-  const header = headerOf(body);
-  checkBody(body);
+  const header = inWordsAtOnce(() => headerOf(body));
+  inWordsAtOnce(() => checkBody(body));
   const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
   const { scene } = await new GLTFLoader().parseAsync(shapes, '');
   checkPositions(meshFromObject(scene, { reading: body.mesh.reading ?? {} }).mesh.positions, body);

@@ -11,7 +11,7 @@ import { morphDisplacements } from './morphs.ts';
 import { collectNormals, isMesh, isPoints, isSkinned, type ObjectMesh, type ObjectPart } from './object-part.ts';
 import { skinOf } from './object-skin.ts';
 import { Places } from './places.ts';
-import { plainObject } from './plain-object.ts';
+import { asksForMore, plainObject } from './plain-object.ts';
 
 type Source = Pick<ObjectPart, 'mesh' | 'instance'>;
 
@@ -36,7 +36,7 @@ type Source = Pick<ObjectPart, 'mesh' | 'instance'>;
  * ```
  */
 export function meshFromObject(object: Object3D, choices: SceneChoices = {}): ObjectMesh {
-  const plain = choices.onWarning ? undefined : plainObject(object);
+  const plain = asksForMore(choices) ? undefined : plainObject(object);
   return plain ?? readParts(object, choices);
 }
 

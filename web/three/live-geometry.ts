@@ -79,6 +79,6 @@ function checkLength(name: string, length: number, vertexCount: number): void {
   if (length === vertexCount * 3) return;
   throw new HandlebodyError('invalid-shape', {
     message: `The ${name} have ${length} numbers; ${vertexCount} vertices need ${vertexCount * 3}.`,
-    remedy: 'Give x, y and z for every vertex of the mesh that meshFromObject() made.',
+    remedy: 'Give x, y and z for every vertex of the joined mesh.',
   });
 }

@@ -1,7 +1,7 @@
 /** One mesh of an object while it is being deformed: a geometry of its own, and the way into its space. */
 import { Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, type Object3D, Sphere } from 'three';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { IDENTITY, invertAffine, isIdentity, multiplyMatrices, type Sixteen } from '../assets/transform.ts';
+import { invertAffine, isIdentity, type Sixteen } from '../assets/transform.ts';
 import { decode } from './decode.ts';
 import type { LiveMorphs } from './live-morphs.ts';
 import { isSkinned, type ObjectPart } from './object-part.ts';
@@ -70,9 +70,8 @@ export function endPart({ mesh, geometry, found }: LivePart): void {
 
 /** From the joined mesh's space to a part's; undefined when they are one. */
 export function inverseOf({ matrix, mesh, origin }: Pick<ObjectPart, 'matrix' | 'mesh' | 'origin'>): Sixteen | undefined {
-  const [x, y, z] = origin ?? [0, 0, 0];
   // Taken off before anything is inverted: what is left is small, and keeps its digits.
-  const near = origin ? multiplyMatrices([...IDENTITY_ROWS, -x, -y, -z, 1], matrix) : matrix;
+  const near = Array.from(matrix, (x, i) => (origin && i > 11 && i < 15 ? x - (origin[i - 12] as number) : x));
   if (isIdentity(near)) return undefined;
   const inverse = invertAffine(near);
   if (inverse) return inverse;
@@ -81,8 +80,6 @@ export function inverseOf({ matrix, mesh, origin }: Pick<ObjectPart, 'matrix' | 
     remedy: 'Give it and the objects above it scales other than zero.',
   });
 }
-
-const IDENTITY_ROWS = Array.from(IDENTITY as ArrayLike<number>).slice(0, 12);
 
 /** Shares all but positions and normals with the original. */
 function livingCopy(original: BufferGeometry): BufferGeometry {

@@ -9,10 +9,10 @@
  */
 import type { Object3D, Mesh as ThreeMesh } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
-import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from '../assets/body-codec.ts';
-import { type PoseSpaceData, parsePoseSpace } from '../assets/pose-space-schema.ts';
+import { Fault, inWords } from '../assets/fault.ts';
+import type { PoseSpaceData } from '../assets/pose-space-schema.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
 import { readObject } from './read-object.ts';
 
@@ -71,8 +71,8 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
 
   async afterRoot(gltf: GLTF): Promise<void> {
     // A file without scenes shows nothing, and has no `gltf.scene`.
-    const body = gltf.scene && (await this.#readBody(gltf.scene));
-    const poseSpaces = this.#readPoseSpaces(gltf);
+    const body = gltf.scene && (await inWords(() => this.#readBody(gltf.scene)));
+    const poseSpaces = await this.#readPoseSpaces(gltf);
     gltf.userData.handlebody = { ...(body && { body }), poseSpaces } satisfies HandlebodyData;
   }
 
@@ -91,19 +91,17 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
       if (this.#parser.json.accessors?.[index as number] === undefined) throw new Error(`accessor ${index} is missing`);
       return (await this.#parser.getDependency('accessor', index as number)).array.slice();
     } catch (cause) {
-      throw new HandlebodyError('body-invalid', {
-        message: `The baked body's ${name} cannot be read: ${cause instanceof Error ? cause.message : String(cause)}.`,
-        remedy: 'The file is damaged or was edited: bake the model again.',
-        cause,
-      });
+      throw new Fault('unreadable', [name], { cause });
     }
   }
 
-  #readPoseSpaces(gltf: GLTF): LoadedPoseSpace[] {
+  async #readPoseSpaces(gltf: GLTF): Promise<LoadedPoseSpace[]> {
     const definitions = (this.#parser.json.meshes ?? []) as {
       extensions?: Record<string, unknown>;
       primitives: { targets?: unknown[] }[];
     }[];
+    if (!definitions.some(({ extensions }) => extensions?.[HANDLEBODY_POSE_SPACE])) return [];
+    const { parsePoseSpace } = await import('../assets/pose-space-schema.ts');
     return definitions.flatMap(({ extensions, primitives }, index) => {
       const json = extensions?.[HANDLEBODY_POSE_SPACE];
       if (!json) return [];

@@ -1,5 +1,6 @@
 import type { Object3D, Mesh as ThreeMesh } from 'three';
 import { concatenate, type MeshRange } from '../assets/concatenate.ts';
+import type { SceneChoices } from '../assets/scene-choices.ts';
 import { IDENTITY, type Matrix, multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
 import { collectNormals, isMesh, isSkinned, type ObjectMesh } from './object-part.ts';
@@ -36,6 +37,11 @@ export function plainObject(object: Object3D): ObjectMesh | undefined {
     return { ...part, start, count, ...(origin && { origin }) };
   });
   return { mesh, parts, normals: collectNormals(parts) };
+}
+
+/** Whether choices ask for more than what is drawn: for what was drawn once, or for warnings. */
+export function asksForMore({ reading = {}, onWarning }: SceneChoices): boolean {
+  return onWarning !== undefined || Object.keys(reading).length > 0;
 }
 
 const SPECIAL = ['isPoints', 'isLine', 'isSprite', 'isLOD', 'isInstancedMesh', 'isBatchedMesh'];

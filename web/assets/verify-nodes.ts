@@ -1,4 +1,5 @@
 /** The scene part of a glTF's JSON: references of nodes, scenes, skins and animations, and that nodes form a forest. */
+import type { Fail } from './fault.ts';
 import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
 
 /** Deeper trees overflow the stack of readers that recurse; real ones have some tens of levels. */
@@ -6,8 +7,8 @@ const MAX_DEPTH = 512;
 
 const TRANSFORMS = { translation: 3, rotation: 4, scale: 3, matrix: 16 };
 
-/** @internal Part of `checkGltf`. */
-export function checkNodes({
+/** @internal Part of `verifyGltf`. */
+export function verifyNodes({
   lists,
   scene,
   index,
@@ -16,7 +17,7 @@ export function checkNodes({
   lists: Record<string, GltfJson[]>;
   scene: unknown;
   index: CheckIndex;
-  fail: (what: string) => never;
+  fail: Fail;
 }): void {
   const nodes = lists.nodes ?? [];
   const size = (name: string) => lists[name]?.length ?? 0;
@@ -27,7 +28,7 @@ export function checkNodes({
     const value = owner[key] ?? [];
     return Array.isArray(value)
       ? value.map((n) => index(n, end, `a member of the ${key} of ${path}`))
-      : fail(`the ${key} of ${path} are no list`);
+      : fail('indices', [key, path]);
   };
 
   const parents = new Int32Array(nodes.length).fill(-1);
@@ -36,15 +37,14 @@ export function checkNodes({
     for (const [key, length] of Object.entries(TRANSFORMS)) {
       const value = node[key];
       if (value === undefined) continue;
-      if (!Array.isArray(value) || value.length !== length || !value.every(Number.isFinite))
-        fail(`the ${key} of ${path} is not ${length} numbers`);
+      if (!Array.isArray(value) || value.length !== length || !value.every(Number.isFinite)) fail('numbers', [key, path, length]);
     }
     optional(node, 'mesh', size('meshes'), path);
     optional(node, 'skin', size('skins'), path);
     optional(node, 'camera', size('cameras'), path);
     const below = indices(node, 'children', nodes.length, path);
     for (const child of below) {
-      if (parents[child] !== -1) fail(`node ${child} hangs below two nodes`);
+      if (parents[child] !== -1) fail('two-parents', [child]);
       parents[child] = i;
     }
     return below;
@@ -54,17 +54,17 @@ export function checkNodes({
   let reached = 0;
   let level = nodes.flatMap((_, i) => (parents[i] === -1 ? [i] : []));
   for (let depth = 0; level.length > 0; depth++) {
-    if (depth > MAX_DEPTH) fail(`its nodes are nested more than ${MAX_DEPTH} deep`);
+    if (depth > MAX_DEPTH) fail('deep', [MAX_DEPTH]);
     reached += level.length;
     level = level.flatMap((i) => children[i] as number[]);
   }
-  if (reached < nodes.length) fail('its nodes hang below each other in a circle');
+  if (reached < nodes.length) fail('circle');
 
   optional({ scene }, 'scene', size('scenes'), 'the file');
   for (const [i, entry] of (lists.scenes ?? []).entries()) {
     const roots = indices(entry, 'nodes', nodes.length, `scene ${i}`);
-    for (const root of roots) if (parents[root] !== -1) fail(`scene ${i} lists node ${root}, which hangs below another node`);
-    if (new Set(roots).size < roots.length) fail(`scene ${i} lists a node twice`);
+    for (const root of roots) if (parents[root] !== -1) fail('no-root', [i, root]);
+    if (new Set(roots).size < roots.length) fail('root-twice', [i]);
   }
   for (const [i, skin] of (lists.skins ?? []).entries()) {
     indices(skin, 'joints', nodes.length, `skin ${i}`);
@@ -73,12 +73,12 @@ export function checkNodes({
   }
   for (const [i, image] of (lists.images ?? []).entries()) optional(image, 'bufferView', size('bufferViews'), `image ${i}`);
   for (const [i, animation] of (lists.animations ?? []).entries()) {
-    const samplers = Array.isArray(animation.samplers) ? animation.samplers : fail(`animation ${i} has no samplers`);
+    const samplers = Array.isArray(animation.samplers) ? animation.samplers : fail('samplers', [i]);
     for (const entry of samplers) {
-      const sampler: GltfJson = isObject(entry) ? entry : fail(`animation ${i} has a damaged sampler`);
+      const sampler: GltfJson = isObject(entry) ? entry : fail('sampler', [i]);
       index(sampler.input, size('accessors'), `a sampler's input of animation ${i}`);
       index(sampler.output, size('accessors'), `a sampler's output of animation ${i}`);
     }
-    if (!Array.isArray(animation.channels)) fail(`animation ${i} has no channels`);
+    if (!Array.isArray(animation.channels)) fail('channels', [i]);
   }
 }

@@ -1,0 +1,156 @@
+/** The words for what can be wrong with a glTF, its container, and a baked body in it. */
+import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
+import { isNumber, show } from './gltf-json.ts';
+
+type Facts = readonly unknown[];
+
+interface Words {
+  readonly code: ErrorCode;
+  readonly message: string;
+  readonly remedy: string;
+}
+
+type Telling = (facts: Facts, cause?: unknown) => Words;
+
+const EXPORT = 'Export the model again; a glTF validator says more.';
+const BAKE = 'The file is damaged or was edited: bake the model again.';
+
+const gltf =
+  (tell: (...facts: Facts) => string): Telling =>
+  (facts) => ({ code: 'file-invalid', message: `The glTF is damaged: ${tell(...facts)}.`, remedy: EXPORT });
+const glb =
+  (tell: (...facts: Facts) => string): Telling =>
+  (facts) => ({ code: 'file-invalid', message: `The GLB is damaged: it ${tell(...facts)}.`, remedy: EXPORT });
+const cut =
+  (tell: (...facts: Facts) => string): Telling =>
+  (facts) => ({
+    code: 'file-truncated',
+    message: `The file is cut off: it ${tell(...facts)}.`,
+    remedy: 'Download or export it again.',
+  });
+const body =
+  (tell: (...facts: Facts) => string, remedy = BAKE): Telling =>
+  (facts) => ({ code: 'body-invalid', message: `The baked body ${tell(...facts)}.`, remedy });
+
+/** By name what is wrong, from facts that the finder gives. @internal */
+export const FAULTS = {
+  'glb-header': cut((length) => `ends after ${length} bytes, within its header`),
+  'glb-length': cut((said, there) => `says it has ${said} bytes, but ${there} are there`),
+  'glb-version': ([version]) => ({
+    code: 'file-unsupported',
+    message: `The file is a GLB of version ${version}; version 2 is read.`,
+    remedy: 'Export the model with a current tool.',
+  }),
+  'glb-chunk': glb((length, offset) => `has a chunk of ${length} bytes at byte ${offset}, which runs past its end`),
+  'glb-first': glb(() => 'does not begin with a JSON chunk'),
+  'glb-json': glb(() => 'has no JSON chunk'),
+  'glb-text': glb(() => 'has a JSON chunk that is not JSON'),
+
+  'json-object': gltf(() => 'its JSON is not an object'),
+  'json-asset': gltf(() => 'it does not say which version it is'),
+  'gltf-version': ([version]) => ({
+    code: 'file-unsupported',
+    message: `The file is glTF of version ${JSON.stringify(version)}; 2.0 is read.`,
+    remedy: 'Export the model with a current tool.',
+  }),
+  names: gltf((name) => `${name} is no list of names`),
+  list: gltf((name, path) => `"${name}" of ${path} is no list of objects`),
+  index: gltf((path, value, end) => `${path} is ${JSON.stringify(value)}, and should be a whole number below ${end}`),
+  indices: gltf((key, path) => `the ${key} of ${path} are no list`),
+  'buffer-length': gltf((i) => `buffer ${i} has no length`),
+  'buffer-short': gltf((i, length, there) => `buffer ${i} should have ${length} bytes, but ${there} are there`),
+  'buffer-outside': ([i, uri]) => ({
+    code: 'file-unsupported',
+    message: `Buffer ${i} of the file lies outside it${typeof uri === 'string' ? `, in "${uri.slice(0, 60)}"` : ''}.`,
+    remedy: 'Export the model as one .glb file with everything inside.',
+  }),
+  view: gltf((i) => `buffer view ${i} lies outside its buffer`),
+  stride: gltf((i) => `buffer view ${i} has an impossible stride`),
+  past: gltf((path) => `${path} reads past the end of its buffer view`),
+  component: gltf((i) => `accessor ${i} has no known component type`),
+  type: gltf((i) => `accessor ${i} has no known type`),
+  count: gltf((i) => `accessor ${i} has no count`),
+  sparse: gltf((i) => `accessor ${i} has a damaged sparse part`),
+  'sparse-type': gltf((i) => `accessor ${i} has sparse indices of no known type`),
+  amplified: ([bytes]) => ({
+    code: 'mesh-too-large',
+    message: `The file stands for ${((bytes as number) / 2 ** 20).toFixed(0)} MiB of vertex data, far more than its own size.`,
+    remedy: 'Simplify the model, or export it again.',
+  }),
+  attributes: gltf((path) => `${path} has no attributes`),
+  numbers: gltf((key, path, length) => `the ${key} of ${path} is not ${length} numbers`),
+  'two-parents': gltf((child) => `node ${child} hangs below two nodes`),
+  deep: gltf((most) => `its nodes are nested more than ${most} deep`),
+  circle: gltf(() => 'its nodes hang below each other in a circle'),
+  'no-root': gltf((scene, root) => `scene ${scene} lists node ${root}, which hangs below another node`),
+  'root-twice': gltf((scene) => `scene ${scene} lists a node twice`),
+  samplers: gltf((i) => `animation ${i} has no samplers`),
+  sampler: gltf((i) => `animation ${i} has a damaged sampler`),
+  channels: gltf((i) => `animation ${i} has no channels`),
+
+  'body-version': ([version, release]) => ({
+    code: 'body-version',
+    message: `The baked body has format version ${show(version)}; this release reads version ${release}.`,
+    remedy:
+      isNumber(version) && version < (release as number)
+        ? 'Bake the model again with this release.'
+        : 'Update Handlebody, or bake the model again with this release.',
+  }),
+  'body-other': () => ({
+    code: 'body-mismatch',
+    message: 'The interior distances were baked for other vertex positions than this model has.',
+    remedy: 'Bake the model again after its last change: bake last.',
+  }),
+  method: body((name) => `has distances of no known method, ${show(name)}`),
+  hash: body(() => 'has no hash of its positions'),
+  scale: body(() => 'has no distance scale'),
+  grid: body((dimensions) => `has a grid of ${(dimensions as number[]).join('×')} voxels`),
+  handles: body((most) => `has no list of at most ${most} handles`),
+  'handle-name': body((i) => `has no name for handle ${i}`),
+  'handle-vertex': body((i, vertex) => `has handle ${i} on no vertex, ${show(vertex)}`),
+  'handle-lost': body((name) => `has the handle “${name}” on a vertex that the model has not`),
+  'arrays-hash': body(() => 'has no hash of its arrays'),
+  array: body((name) => `has no ${name}, or not as numbers of the right type`),
+  runs: body(() => 'has voxels that are no ascending runs inside its grid'),
+  few: body((bytes, centers, voxels) => `has ${bytes} bytes of distances, too few for ${centers} centers × ${voxels} voxels`),
+  twice: body(() => 'stores the distances of a center twice'),
+  lacking: body(() => 'lacks the distances of a center'),
+  distances: body((there, centers, voxels) => `has ${there} distances for ${centers} centers × ${voxels} voxels`),
+  voxel: body((voxel) => `has voxel ${voxel} out of order or outside its grid`),
+  center: body((vertex, vertices) => `has a center on vertex ${vertex} of ${vertices}`),
+  spheres: body(() => 'has spheres that are not four finite numbers each'),
+  empty: body(() => 'is empty'),
+  most: body(
+    (centers, voxels, mostVoxels, mostCodes) =>
+      `would have ${centers} centers × ${voxels} voxels; at most ${mostVoxels} voxels and ${mostCodes} distances are stored`,
+    'Bake with fewer centers or a lower resolution.',
+  ),
+  triple: body((name) => `has no ${name} of three numbers`),
+  positive: body((name) => `has no ${name} above zero`),
+  unreadable: (facts, cause) => ({
+    code: 'body-invalid',
+    message: `The baked body's ${facts[0]} cannot be read: ${cause instanceof Error ? cause.message : String(cause)}.`,
+    remedy: BAKE,
+  }),
+  compressed: body(() => 'has distances that cannot be decompressed'),
+  changed: body(() => 'has arrays that are not as they were written'),
+} satisfies Record<string, Telling>;
+
+/** A fault by its name, as `Fault` has it. */
+interface Named {
+  readonly fault: keyof typeof FAULTS;
+  readonly facts: Facts;
+  readonly byte: number | undefined;
+  readonly cause?: unknown;
+}
+
+/** The same fault as an error that says what is wrong. */
+export function worded({ fault, facts, byte, cause }: Named): HandlebodyError {
+  const { code, message, remedy } = (FAULTS[fault] as Telling)(facts, cause);
+  return new HandlebodyError(code, {
+    message,
+    remedy,
+    ...(byte !== undefined && { culprit: { kind: 'byte', index: byte } }),
+    cause,
+  });
+}

@@ -1,0 +1,149 @@
+/**
+ * The structure of a glTF's JSON: that every number points at something that is there, and that the node graph is a forest. Readers
+ * trust these things; a file that breaks them makes them read past the end or walk in circles.
+ */
+import { type Fail, Fault } from './fault.ts';
+import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
+import { verifyNodes } from './verify-nodes.ts';
+
+export interface CheckGltfOptions {
+  /** Bytes of the GLB's binary chunk; undefined when it has none. */
+  readonly binLength?: number | undefined;
+  /** Bytes of every buffer, where they were fetched from wherever they lie. */
+  readonly bufferLengths?: readonly number[];
+  /** Bytes of the whole file: how much data it may stand for is measured by it. */
+  readonly fileLength?: number;
+  /** Where the JSON and the binary chunk begin in the file, to name the byte at fault. */
+  readonly jsonStart?: number;
+  readonly binStart?: number;
+}
+
+// Maps, since a file may ask an object for its "constructor".
+const COMPONENT_BYTES = new Map<unknown, number>(
+  Object.entries({ 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }).map(([type, n]) => [Number(type), n]),
+);
+const TYPE_SIZES = new Map<unknown, number>(Object.entries({ SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 }));
+const LISTS = [
+  'accessors',
+  'animations',
+  'buffers',
+  'bufferViews',
+  'cameras',
+  'images',
+  'materials',
+  'meshes',
+  'nodes',
+  'samplers',
+];
+
+/** Accessors may share bytes, so a file can stand for more data than it has; this much more is taken for an attack or a defect. */
+const AMPLIFICATION = 16;
+const AMPLE = 1 << 28;
+
+/** Returns the JSON when it is sound. Throws a `Fault` as `checkGltf` has it in words. */
+export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): GltfJson {
+  const { jsonStart = 0, binStart = 0 } = options;
+  const fail: Fail = (fault, facts = [], byte = jsonStart) => {
+    throw new Fault(fault, facts, { byte });
+  };
+  const index: CheckIndex = (n, end, path) => {
+    if (!isIndex(n) || n >= end) fail('index', [path, n, end]);
+    return n as number;
+  };
+  const json = isObject(value) ? value : fail('json-object');
+  checkAsset(json, fail);
+  const lists = Object.fromEntries([...LISTS, 'scenes', 'skins', 'textures'].map((name) => [name, list(json, name, fail)]));
+  const count = (name: string) => lists[name]?.length ?? 0;
+
+  const buffers = (lists.buffers ?? []).map((buffer, i) => {
+    const length = isIndex(buffer.byteLength) ? buffer.byteLength : fail('buffer-length', [i]);
+    const there = options.bufferLengths?.[i] ?? bufferBytes(buffer, i, options);
+    if (length > there) fail('buffer-short', [i, length, there], binStart || jsonStart);
+    return length;
+  });
+
+  const views = (lists.bufferViews ?? []).map((view, i) => {
+    const buffer = index(view.buffer, buffers.length, `the buffer of buffer view ${i}`);
+    const [offset, length] = [view.byteOffset ?? 0, view.byteLength];
+    if (!isIndex(offset) || !isIndex(length) || offset + length > (buffers[buffer] as number)) {
+      return fail('view', [i], binStart || jsonStart);
+    }
+    const stride = view.byteStride;
+    if (stride !== undefined && (!isIndex(stride) || stride < 1 || stride > 252)) fail('stride', [i]);
+    return { offset, length, stride: stride as number | undefined };
+  });
+
+  let total = 0;
+  const fits = (accessor: GltfJson, path: string, size: number) => {
+    const view = views[index(accessor.bufferView, views.length, `the buffer view of ${path}`)] as (typeof views)[number];
+    const [offset, n] = [accessor.byteOffset ?? 0, accessor.count as number];
+    const end = isIndex(offset) ? offset + (n === 0 ? 0 : (view.stride ?? size) * (n - 1) + size) : Number.NaN;
+    if (!(end <= view.length)) fail('past', [path], binStart + view.offset);
+  };
+  for (const [i, accessor] of (lists.accessors ?? []).entries()) {
+    const bytes = COMPONENT_BYTES.get(accessor.componentType) ?? fail('component', [i]);
+    const components = TYPE_SIZES.get(accessor.type) ?? fail('type', [i]);
+    if (!isIndex(accessor.count)) fail('count', [i]);
+    if (accessor.bufferView !== undefined) fits(accessor, `accessor ${i}`, bytes * components);
+    if (accessor.sparse !== undefined) {
+      const sparse = isObject(accessor.sparse) ? accessor.sparse : fail('sparse', [i]);
+      const { indices, values } = sparse;
+      if (!isObject(indices) || !isObject(values)) return fail('sparse', [i]);
+      index(sparse.count, (accessor.count as number) + 1, `the sparse count of accessor ${i}`);
+      const indexBytes = COMPONENT_BYTES.get(indices.componentType) ?? fail('sparse-type', [i]);
+      fits({ ...indices, count: sparse.count }, `the sparse indices of accessor ${i}`, indexBytes);
+      fits({ ...values, count: sparse.count }, `the sparse values of accessor ${i}`, bytes * components);
+    }
+    total += (accessor.count as number) * components * bytes;
+  }
+  if (total > Math.max(AMPLE, AMPLIFICATION * (options.fileLength ?? Number.POSITIVE_INFINITY))) {
+    fail('amplified', [total]);
+  }
+
+  for (const [i, mesh] of (lists.meshes ?? []).entries()) {
+    for (const [j, primitive] of list(mesh, 'primitives', fail, `mesh ${i}`).entries()) {
+      const path = `primitive ${j} of mesh ${i}`;
+      if (primitive.mode !== undefined) index(primitive.mode, 7, `the mode of ${path}`);
+      if (primitive.indices !== undefined) index(primitive.indices, count('accessors'), `the indices of ${path}`);
+      if (primitive.material !== undefined) index(primitive.material, count('materials'), `the material of ${path}`);
+      for (const attributes of [primitive.attributes, ...list(primitive, 'targets', fail, path)]) {
+        if (!isObject(attributes)) return fail('attributes', [path]);
+        for (const [name, accessor] of Object.entries(attributes)) index(accessor, count('accessors'), `${name} of ${path}`);
+      }
+    }
+  }
+  verifyNodes({ lists, scene: json.scene, index, fail });
+  return json;
+}
+
+function checkAsset(json: GltfJson, fail: Fail): void {
+  const version = isObject(json.asset) ? json.asset.version : fail('json-asset');
+  if (version !== '2.0') {
+    throw new Fault('gltf-version', [version]);
+  }
+  for (const name of ['extensionsUsed', 'extensionsRequired']) {
+    const names = json[name];
+    if (names !== undefined && !(Array.isArray(names) && names.every((n) => typeof n === 'string'))) fail('names', [name]);
+  }
+}
+
+function isIndex(value: unknown): value is number {
+  return Number.isSafeInteger(value) && (value as number) >= 0;
+}
+
+function list(owner: GltfJson, name: string, fail: Fail, path = 'the file'): GltfJson[] {
+  const value = owner[name];
+  if (value === undefined) return [];
+  return Array.isArray(value) && value.every(isObject) ? value : fail('list', [name, path]);
+}
+
+/** Bytes that a buffer really has: those of the binary chunk, or of a data URI. */
+function bufferBytes(buffer: GltfJson, i: number, { binLength, jsonStart = 0 }: CheckGltfOptions): number {
+  const { uri } = buffer;
+  if (uri === undefined) return i === 0 && binLength !== undefined ? binLength : 0;
+  const comma = typeof uri === 'string' && uri.startsWith('data:') ? uri.indexOf(',') : -1;
+  if (comma !== -1 && (uri as string).slice(0, comma).endsWith(';base64')) {
+    return Math.floor(((uri as string).slice(comma + 1).replace(/={1,2}$/, '').length * 3) / 4);
+  }
+  throw new Fault('buffer-outside', [i, uri], { byte: jsonStart });
+}
