@@ -27,7 +27,9 @@ export function unreadable(geometry: BufferGeometry): string | undefined {
 
 function both(a: DrawnRun, b: DrawnRun): DrawnRun {
   const start = Math.max(a.start, b.start);
-  return { start, count: Math.max(Math.min(a.start + a.count, b.start + b.count) - start, 0) };
+  const count = Math.min(a.start + a.count, b.start + b.count) - start;
+  // Of what is no number nothing is drawn.
+  return count > 0 ? { start, count } : { start: 0, count: 0 };
 }
 
 /** Groups may overlap, to draw a triangle in two materials: it counts once. */

@@ -90,7 +90,7 @@ function partOf(mesh: ThreeMesh | Points, { instance, hidden, places, takesHidde
   const indices = range ? indicesOf(geometry, range) : geometry.index?.array;
   const drawn = range ? undefined : drawnRuns(mesh, takesHidden);
   return {
-    source: { mesh, instance: instance && { ...instance, meshMatrix } },
+    source: { mesh, instance: instance && { ...instance, meshMatrix, isTop: mesh === places.object } },
     name: mesh.name || geometry.name || 'a mesh without a name',
     hidden: hidden || instance?.visible === false,
     mode: isPoints(mesh) ? 0 : 4,
