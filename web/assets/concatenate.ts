@@ -47,11 +47,12 @@ export interface MeshRange {
  *
  * Parts that are all points give a cloud: a mesh without triangles. In a cloud a point that is not drawn lies where the first drawn one does.
  *
- * A mesh far from the origin gets an `origin` of its own, which its positions are relative to; they are subtracted in double precision.
+ * A mesh far from the origin gets an `origin` of its own, which its positions are relative to, subtracted in double precision; or the one that it
+ * had when it was read before.
  *
  * Throws 'mesh-no-triangles', 'mesh-too-large', or 'mesh-index-out-of-range' naming the triangle.
  */
-export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: MeshRange[] } {
+export function concatenate(parts: readonly MeshPart[], known?: Vec3): { mesh: Mesh; ranges: MeshRange[] } {
   const runs = parts.map(runsOf);
   let [vertices, triangles] = [0, 0];
   const ranges = parts.map(({ positions, mode = 4 }, i) => {
@@ -81,7 +82,7 @@ export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: M
   });
   const used = isCloud ? undefined : usedVertices(joined.triangles, vertices);
   const box = boxOf(parts, used);
-  const origin = chooseOrigin(box.low, box.high);
+  const origin = known ?? chooseOrigin(box.low, box.high);
   parts.forEach((part, i) => {
     const { start } = ranges[i] as MeshRange;
     transformPart(part, origin, (vertex, x, y, z) => {
@@ -92,7 +93,7 @@ export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: M
     });
     if (isCloud) gatherUndrawn(joined.positions, part, { start, runs: runs[i] as DrawnRun[] });
   });
-  return { mesh: { ...joined, ...(origin && { origin }) }, ranges };
+  return { mesh: { ...joined, ...(origin && { origin, reading: { origin } }) }, ranges };
 }
 
 /** What is drawn of a part, within what it has. */

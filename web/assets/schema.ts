@@ -10,7 +10,7 @@
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
  *     "handles": [ { "name": "Nose", "vertex": 120 }, { "name": "Chest", "at": [x, y, z] }, … ],    optional: where it wants to be held
- *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] } },    optional: see `MeshReading`
+ *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] }, "origin": [x, y, z] },    optional: see `MeshReading`
  *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
  *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
  *     "centers": accessor,     unsigned int SCALAR: vertices
@@ -117,7 +117,7 @@ export function parseBodyHeader(json: unknown): BodyHeader {
 const MAX_PARTS = 1 << 16;
 
 function meshReading(json: unknown): MeshReading {
-  const { skipped = [], morphs = {}, skins = {} } = asObject(json) ?? bodyFails();
+  const { skipped = [], morphs = {}, skins = {}, origin } = asObject(json) ?? bodyFails();
   const isPart = (part: unknown) => Number.isInteger(part) && (part as number) >= 0 && (part as number) < MAX_PARTS;
   const rows = (given: unknown, length?: number) => {
     const entries = Object.entries(asObject(given) ?? bodyFails());
@@ -128,7 +128,12 @@ function meshReading(json: unknown): MeshReading {
     return entries.length > MAX_PARTS || !sound ? bodyFails() : (Object.fromEntries(entries) as Record<number, number[]>);
   };
   if (!Array.isArray(skipped) || skipped.length > MAX_PARTS || !skipped.every(isPart)) return bodyFails();
-  return { skipped, morphs: rows(morphs), skins: rows(skins, 16) };
+  return {
+    skipped,
+    morphs: rows(morphs),
+    skins: rows(skins, 16),
+    ...(origin !== undefined && { origin: triple(origin, 'origin') }),
+  };
 }
 
 function bodyFails(): never {

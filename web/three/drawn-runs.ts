@@ -1,5 +1,5 @@
 /** Which of a mesh's triangles three.js draws: its draw range, its groups, its materials. */
-import type { BufferGeometry, Material, Points, Mesh as ThreeMesh } from 'three';
+import type { BufferGeometry, Material, MeshStandardMaterial, Points, Mesh as ThreeMesh } from 'three';
 import type { DrawnRun } from '../assets/concatenate.ts';
 
 /** Undefined where all is drawn. `hidden` counts groups of materials that are not visible as well. */
@@ -16,6 +16,14 @@ export function drawnRuns({ geometry, material }: ThreeMesh | Points, hidden: bo
 /** Whether no material shows anything of the mesh. */
 export function isInvisible({ material }: ThreeMesh | Points): boolean {
   return [material].flat().every((each) => !each?.visible);
+}
+
+/** Whether the graphics card moves its vertices by a picture. */
+export function isDisplaced({ material }: ThreeMesh | Points): boolean {
+  return [material].flat().some((each) => {
+    const { displacementMap, displacementScale = 1 } = (each ?? {}) as Partial<MeshStandardMaterial>;
+    return displacementMap && displacementScale !== 0;
+  });
 }
 
 /** A reason why the vertices that are drawn are not those that a program can see; undefined where they are. */

@@ -1,4 +1,5 @@
 import type { Object3D, Mesh as ThreeMesh } from 'three';
+import type { Vec3 } from '../../wasm/ts/types.ts';
 import { concatenate, type MeshRange } from '../assets/concatenate.ts';
 import { IDENTITY, type Matrix, multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
@@ -6,9 +7,9 @@ import { collectNormals, isMesh, isSkinned, type ObjectMesh } from './object-par
 
 /**
  * What `meshFromObject` gives for an object of nothing but plain meshes, all of them drawn whole and as stored, which most models are;
- * undefined for others. Pages fetch the rest of it only for those.
+ * undefined for others. Pages fetch the rest of it only for those. `known`: the origin that it had when it was read before.
  */
-export function plainObject(object: Object3D): ObjectMesh | undefined {
+export function plainObject(object: Object3D, known?: Vec3): ObjectMesh | undefined {
   const found: { mesh: ThreeMesh; matrix: Matrix }[] = [];
   let isPlain = true;
   const visit = (node: Object3D, parent: Matrix) => {
@@ -29,6 +30,7 @@ export function plainObject(object: Object3D): ObjectMesh | undefined {
       indices: geometry.index?.array,
       matrix,
     })),
+    known,
   );
   const { origin } = mesh;
   const parts = found.map((part, i) => {
