@@ -25,7 +25,8 @@ export function drawnTriangles(object: Object3D): number[][] {
   return triangles;
 }
 
-function trianglesOf(mesh: Mesh): number[][] {
+/** Those of one mesh, where the matrices of the world have it. */
+export function trianglesOf(mesh: Mesh): number[][] {
   const { geometry, material, matrixWorld } = mesh;
   if ('isBatchedMesh' in mesh) return batch(mesh as unknown as BatchedMesh);
   const runs = Array.isArray(material)
