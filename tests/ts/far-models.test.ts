@@ -172,6 +172,7 @@ describe('in a page', () => {
     }
     // A body of doubles, as it came out of a file that knows no nodes, fits the document that is made of them.
     const doubles = await hb.bake({ positions: boxAt(FAR), triangles }, OPTIONS);
+    expect(doubles.mesh.reading).toEqual({ origin: FAR });
     await expect(attachBody(document, doubles)).resolves.toBeDefined();
   });
 

@@ -105,6 +105,21 @@ describe('a skin that its bones carry alike', () => {
     }
   });
 
+  it('has a row of zeros with its first joint, as three.js loads it (seeds 1 to 24)', () => {
+    for (const seed of SEEDS) {
+      const object = skins(random(seed).number);
+      const [mesh] = meshesOf(object) as [SkinnedMesh];
+      const { skinIndex, skinWeight } = mesh.geometry.attributes;
+      for (let v = 0; v < (skinIndex?.count ?? 0); v++) {
+        skinIndex?.setXYZW(v, v === 3 && seed % 2 === 0 ? 2 : 0, 2, 2, 2);
+        if (v === 3) skinWeight?.setXYZW(v, 0, 0, 0, 0);
+        else skinWeight?.setXYZW(v, 1, 0, 0, 0);
+      }
+      (mesh.skeleton.bones[2] as Object3D).position.x += 1;
+      expect(read(object).codes).toEqual(seed % 2 === 0 ? ['skin-posed'] : []);
+    }
+  });
+
   it('without a skeleton is a mesh like others', () => {
     const made = skinned();
     const [mesh] = meshesOf(made) as [SkinnedMesh];

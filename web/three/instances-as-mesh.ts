@@ -103,11 +103,11 @@ function takePlace(mesh: ThreeMesh, original: Instanced, isTop: boolean): () => 
   } else replace(shown(), mesh);
   meshes.push(mesh);
   return () => {
-    const wasShown = shown() === mesh;
     meshes.splice(meshes.indexOf(mesh), 1);
     if (meshes.length === 0) standing.delete(original);
-    if (wasShown && (!isTop || meshes.length > 0)) replace(mesh, shown());
-    else if (wasShown) mesh.removeFromParent();
+    // One that is not shown is in nobody's list, and this changes nothing.
+    if (!isTop || meshes.length > 0) replace(mesh, shown());
+    else mesh.removeFromParent();
     if (meshes.length === 0) unhide?.();
   };
 }
