@@ -18,11 +18,16 @@ export function drawnVertices({ indices, drawn }: Drawing, count: number): Uint8
   return out;
 }
 
-/** Whether stored floats lie more than 1,000 of their diagonals from their origin. */
-export function isCoarse(positions: ArrayLike<number>, drawn: Uint8Array): boolean {
+/** The box of what is drawn. */
+export function boxOf(positions: ArrayLike<number>, drawn: Uint8Array): Box {
   const box = new Box();
   for (let vertex = 0; vertex < drawn.length; vertex++) if (drawn[vertex] === 1) box.widen(positions, vertex);
-  return chooseOrigin(box.low, box.high) !== undefined;
+  return box;
+}
+
+/** Whether stored floats lie more than 1,000 of their diagonals from their origin. */
+export function isCoarse({ low, high }: Box): boolean {
+  return chooseOrigin(low, high) !== undefined;
 }
 
 /** As many of its diagonals away from the others' middle a part is a few hundred floats long. */
@@ -32,16 +37,17 @@ const LOST = 1e5;
 export function isLostInScene({ positions, triangles }: Mesh, { firstTriangle, triangleCount }: MeshRange): boolean {
   const box = new Box();
   for (let i = 3 * firstTriangle; i < 3 * (firstTriangle + triangleCount); i++) box.widen(positions, triangles[i] as number);
-  const { low, high } = box;
-  const axes = [0, 1, 2] as const;
-  const diagonal = Math.hypot(...axes.map((axis) => high[axis] - low[axis]));
-  const farthest = Math.max(...axes.map((axis) => Math.max(low[axis], -high[axis])));
-  return triangleCount > 0 && farthest > LOST * diagonal;
+  const farthest = Math.max(...([0, 1, 2] as const).map((axis) => Math.max(box.low[axis], -box.high[axis])));
+  return triangleCount > 0 && farthest > LOST * box.diagonal;
 }
 
 class Box {
   readonly low: [number, number, number] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
   readonly high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
+
+  get diagonal(): number {
+    return Math.hypot(...this.high.map((most, axis) => most - (this.low[axis] as number)));
+  }
 
   widen(positions: ArrayLike<number>, vertex: number): void {
     for (const axis of [0, 1, 2] as const) {

@@ -4,7 +4,7 @@
  */
 
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
-import { drawnVertices, isCoarse, isLostInScene } from './coarse-floats.ts';
+import { boxOf, drawnVertices, isCoarse, isLostInScene } from './coarse-floats.ts';
 import { concatenate, type DrawnRun, type MeshRange, type PartMode } from './concatenate.ts';
 import type { SceneChoices, SceneWarning } from './scene-choices.ts';
 import { type PartSkin, skinFrame } from './skin-frame.ts';
@@ -159,8 +159,10 @@ function warnOfFloats(
   const coarse = new Set<string>();
   const lost = new Set<string>();
   parts.forEach(({ part, positions }, i) => {
-    if (part.floats && isCoarse(positions, drawnVertices(part, positions.length / 3))) coarse.add(part.name);
-    else if (isLostInScene(mesh, ranges[i] as MeshRange)) lost.add(part.name);
+    const box = boxOf(positions, drawnVertices(part, positions.length / 3));
+    if (part.floats && isCoarse(box)) coarse.add(part.name);
+    // What is but a place has no shape to lose.
+    else if (box.diagonal > 0 && isLostInScene(mesh, ranges[i] as MeshRange)) lost.add(part.name);
   });
   if (coarse.size > 0)
     warn(
