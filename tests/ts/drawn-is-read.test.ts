@@ -3,39 +3,12 @@ import { BatchedMesh, type Group, InstancedMesh, Mesh, type Object3D } from 'thr
 import { describe, expect, it } from 'vitest';
 import type { SceneWarning } from '../../web/assets/scene-choices.ts';
 import { DeformedGeometry, meshFromObject } from '../../web/three/index.ts';
-import { drawnTriangles } from './support/drawn-triangles.ts';
+import { drawnTriangles, expectSame, joined } from './support/drawn-triangles.ts';
 import * as made from './support/made-objects.ts';
 import { random } from './support/scattered.ts';
 
 const { bend, ...kinds } = made;
 const VARIATIONS = 24;
-
-/** Corners of every triangle, each triangle begun and turned as it may be: readers turn those of mirrored meshes round. */
-const sorted = (triangles: readonly number[][]) =>
-  triangles.map((triangle) =>
-    [0, 3, 6]
-      .map((at) => triangle.slice(at, at + 3))
-      .sort(
-        (p, q) => (p[0] as number) - (q[0] as number) || (p[1] as number) - (q[1] as number) || (p[2] as number) - (q[2] as number),
-      )
-      .flat(),
-  );
-
-/** Floats of two reckonings differ a little, and three.js', which stays in the world, a little more. */
-function expectClose(got: readonly number[][], right: readonly number[][]): void {
-  expect(got.length).toBe(right.length);
-  expect(right.length).toBeGreaterThan(0);
-  const [numbers, others] = [sorted(got).flat(), sorted(right).flat()];
-  const diagonal = Math.max(...others) - Math.min(...others);
-  const worst = numbers.reduce((most, x, k) => Math.max(most, Math.abs(x - (others[k] as number))), 0);
-  expect(worst / diagonal).toBeLessThan(1e-6);
-}
-
-/** Triangles of a joined mesh at these positions. */
-const joined = (triangles: ArrayLike<number>, positions: ArrayLike<number>) =>
-  Array.from({ length: triangles.length / 3 }, (_, t) =>
-    [0, 1, 2].flatMap((k) => [0, 1, 2].map((axis) => positions[3 * (triangles[3 * t + k] as number) + axis] as number)),
-  );
 
 describe.each(Object.entries(kinds))('%s', (_, make) => {
   const each = (work: (object: Group, seed: number) => void) => {
@@ -46,7 +19,7 @@ describe.each(Object.entries(kinds))('%s', (_, make) => {
     each((object) => {
       const right = drawnTriangles(object);
       const { mesh } = meshFromObject(object, { morphs: 'present' });
-      expectClose(joined(mesh.triangles, mesh.positions), right);
+      expectSame(joined(mesh.triangles, mesh.positions), right);
     });
   });
 
@@ -64,7 +37,7 @@ describe.each(Object.entries(kinds))('%s', (_, make) => {
       const expected = bent.map(
         (x, i) => x + (seed % 2 === 0 ? 0 : (present.positions[i] as number) - (mesh.positions[i] as number)),
       );
-      expectClose(drawnTriangles(object), joined(mesh.triangles, expected));
+      expectSame(drawnTriangles(object), joined(mesh.triangles, expected));
       let plain = 0;
       object.traverse((node) => {
         if (node instanceof InstancedMesh || node instanceof BatchedMesh) plain--;

@@ -281,9 +281,10 @@ describe('instances', () => {
     const { mesh: read, parts } = meshFromObject(mesh);
     const shown = new DeformedGeometry(parts);
     shown.update(read.positions);
-    expect([mesh.children.length, mesh.layers.mask]).toEqual([1, 0]);
+    expect([mesh.children.length, mesh.children[0]?.layers.mask, mesh.count]).toEqual([1, 8, 0]);
+    expect(meshFromObject(mesh).mesh.positions).toEqual(read.positions);
     shown.dispose();
-    expect([mesh.children.length, mesh.layers.mask]).toEqual([0, 8]);
+    expect([mesh.children.length, mesh.layers.mask, mesh.count]).toEqual([0, 8, 3]);
   });
 });
 

@@ -5,7 +5,7 @@ import { copied, unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { chooseOrigin } from './origin.ts';
-import type { BakeShape, Mesh, TetrahedralMesh, VoxelVolume } from './types.ts';
+import type { BakeShape, Mesh, TetrahedralMesh, Vec3, VoxelVolume } from './types.ts';
 
 interface PreparedShape {
   /** In arrays of its own: a bake lets events in, and the caller's may change or go to another thread meanwhile. */
@@ -24,12 +24,8 @@ export function prepareShape(heap: Heap<Exports>, shape: BakeShape): PreparedSha
   const prepared = prepare(heap, shape);
   if ('dimensions' in shape) return aboutOrigin(prepared);
   const { origin, reading } = shape;
-  const mesh = {
-    ...prepared.mesh,
-    ...(origin && { origin: [...origin] as const }),
-    ...(reading && { reading: structuredClone(reading) }),
-  };
-  return origin ? { ...prepared, mesh } : aboutOrigin({ ...prepared, mesh });
+  const mesh = { ...prepared.mesh, ...(reading && { reading: structuredClone(reading) }) };
+  return origin ? { ...prepared, mesh: withOrigin(mesh, origin) } : aboutOrigin({ ...prepared, mesh });
 }
 
 /** Doubles far from the origin keep their shape: they are given about an origin of their own. Floats have nothing more to keep. */
@@ -52,7 +48,11 @@ function aboutOrigin(prepared: PreparedShape): PreparedShape {
   if (!origin) return prepared;
   // The arrays are this function's own by now.
   for (let i = 0; i < positions.length; i++) positions[i] = (positions[i] as number) - (origin[i % 3] as number);
-  return { ...prepared, mesh: { ...mesh, origin } };
+  return { ...prepared, mesh: withOrigin(mesh, origin) };
+}
+
+function withOrigin(mesh: Mesh, origin: Vec3): Mesh {
+  return { ...mesh, origin: [...origin], reading: { ...mesh.reading, origin: [...origin] } };
 }
 
 function prepare(heap: Heap<Exports>, shape: BakeShape): PreparedShape {

@@ -40,6 +40,8 @@ export interface MeshReading {
   readonly morphs?: Readonly<Record<number, readonly number[]>>;
   /** By part: the matrix that a skin was read through, 16 numbers, column-major. */
   readonly skins?: Readonly<Record<number, readonly number[]>>;
+  /** The mesh's `origin`: another part of it may be drawn by now. */
+  readonly origin?: Vec3 | undefined;
 }
 
 /** A solid of tetrahedra (m×4 indices, in either order of corners). All of its vertices deform; they are shared by number. */

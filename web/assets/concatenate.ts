@@ -21,6 +21,12 @@ interface MeshPart {
   readonly matrix?: Matrix;
 }
 
+interface ConcatenateOptions {
+  readonly isCloud?: boolean;
+  /** What the positions are to be relative to, whatever they are now. */
+  readonly origin?: Vec3 | undefined;
+}
+
 /** Where a part's vertices and triangles lie in the joined mesh. */
 export interface MeshRange {
   readonly start: number;
@@ -34,11 +40,15 @@ export interface MeshRange {
  * counter-clockwise seen from outside. Left-over indices that make no whole triangle are ignored, as a renderer does. Of a cloud, a mesh
  * without triangles.
  *
- * A mesh far from the origin gets an `origin` of its own, which its positions are relative to; they are subtracted in double precision.
+ * A mesh far from the origin gets an `origin` of its own, which its positions are relative to, subtracted in double precision; or the one that it
+ * had when it was read before.
  *
  * Throws 'mesh-no-triangles', 'mesh-too-large', or 'mesh-index-out-of-range' naming the triangle.
  */
-export function concatenate(parts: readonly MeshPart[], isCloud = false): { mesh: Mesh; ranges: MeshRange[] } {
+export function concatenate(
+  parts: readonly MeshPart[],
+  { isCloud = false, origin: known }: ConcatenateOptions = {},
+): { mesh: Mesh; ranges: MeshRange[] } {
   let [vertices, triangles] = [0, 0];
   const ranges = parts.map(({ positions, indices }) => {
     const count = positions.length / 3;
@@ -78,13 +88,13 @@ export function concatenate(parts: readonly MeshPart[], isCloud = false): { mesh
     high[1] = Math.max(high[1], y);
     high[2] = Math.max(high[2], z);
   });
-  const origin = chooseOrigin(low, high);
+  const origin = known ?? chooseOrigin(low, high);
   each(origin ?? [0, 0, 0], (vertex, x, y, z) => {
     joined.positions[3 * vertex] = x;
     joined.positions[3 * vertex + 1] = y;
     joined.positions[3 * vertex + 2] = z;
   });
-  return { mesh: { ...joined, ...(origin && { origin }) }, ranges };
+  return { mesh: { ...joined, ...(origin && { origin, reading: { origin } }) }, ranges };
 }
 
 /** Throws 'mesh-too-large'. */

@@ -3,9 +3,9 @@
  * three.js' objects are both read through here, so that the same model gives the same vertices, to the last bit.
  */
 
-import { chooseOrigin } from '../../wasm/ts/origin.ts';
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
 import { checkReading } from './check-reading.ts';
+import { boxOf, drawnVertices, isCoarse, isLostInScene } from './coarse-floats.ts';
 import { checkSize, concatenate, type MeshRange } from './concatenate.ts';
 import { cornersOf, countTriangles, type DrawnRun, gatherUndrawn, type PartMode } from './drawn-corners.ts';
 import type { SceneChoices, SceneWarning } from './scene-choices.ts';
@@ -84,7 +84,9 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
     const positions = weights ? morphed(stored, part.displacements(), weights) : stored;
     const kept = known?.skins?.[number];
     const skin = kept ? undefined : part.skin?.();
-    const frame = kept ? { matrix: kept, posed: false } : skin && skinFrame(positions, skin);
+    const frame = kept
+      ? { matrix: kept, posed: false }
+      : skin && skinFrame(positions, skin, drawnVertices(part, stored.length / 3));
     if (frame?.posed) posed.add(part.name);
     if (frame) reading.skins[number] = Array.from(frame.matrix);
     return { part, weights, positions, matrix: frame?.matrix ?? part.matrix };
@@ -102,7 +104,7 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
       matrix,
       indices: isCloud ? undefined : cornersOf(part, positions.length / 3),
     })),
-    isCloud,
+    { isCloud, origin: known?.origin },
   );
   if (isCloud)
     parts.forEach(({ part }, i) => {
@@ -122,16 +124,10 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
       `The skeleton of ${named(posed)} stands in a pose, and the skin was read in its rest shape, where its root joint puts it.`,
       'Deform the rest shape, which the skeleton then poses; or apply the pose in a modeling program and export the model again.',
     );
-  const coarse = parts.filter(({ part, positions }) => part.floats && isCoarse(positions)).map(({ part }) => part.name);
-  if (coarse.length > 0)
-    warn(
-      'positions-coarse',
-      `The vertices of ${named(new Set(coarse))} are stored more than 1,000 of its diagonals from its origin, where floats are too far apart for its shape.`,
-      'Move the mesh to its origin in the program that made it, and put the distance into its node.',
-    );
+  if (choices.onWarning) warnOfFloats(parts, { mesh, ranges, warn });
   const told = Object.fromEntries(Object.entries(reading).filter(([, value]) => Object.keys(value).length > 0)) as MeshReading;
   return {
-    mesh: Object.keys(told).length > 0 ? { ...mesh, reading: told } : mesh,
+    mesh: Object.keys(told).length > 0 ? { ...mesh, reading: { ...told, ...mesh.reading } } : mesh,
     parts: parts.map(({ part, weights, matrix }, i) => ({
       ...(ranges[i] as MeshRange),
       source: part.source,
@@ -168,15 +164,36 @@ function morphed(
   return morphOffset(positions.length, displacements, weights).map((offset, i) => (positions[i] as number) + offset);
 }
 
-function isCoarse(positions: ArrayLike<number>): boolean {
-  const low: [number, number, number] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
-  const high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  for (let i = 0; i < positions.length; i++) {
-    const [axis, x] = [i % 3, positions[i] as number];
-    low[axis] = Math.min(low[axis] as number, x);
-    high[axis] = Math.max(high[axis] as number, x);
-  }
-  return chooseOrigin(low, high) !== undefined;
+interface Joining {
+  readonly mesh: Mesh;
+  readonly ranges: readonly MeshRange[];
+  readonly warn: (code: SceneWarning['code'], message: string, remedy: string) => void;
+}
+
+function warnOfFloats(
+  parts: readonly { readonly part: ScenePart<unknown>; readonly positions: ArrayLike<number> }[],
+  { mesh, ranges, warn }: Joining,
+): void {
+  const coarse = new Set<string>();
+  const lost = new Set<string>();
+  parts.forEach(({ part, positions }, i) => {
+    const box = boxOf(positions, drawnVertices(part, positions.length / 3));
+    if (part.floats && isCoarse(box)) coarse.add(part.name);
+    // What is but a place has no shape to lose.
+    else if (box.diagonal > 0 && isLostInScene(mesh, ranges[i] as MeshRange)) lost.add(part.name);
+  });
+  if (coarse.size > 0)
+    warn(
+      'positions-coarse',
+      `The vertices of ${named(coarse)} are stored more than 1,000 of its diagonals from its origin, where floats are too far apart for its shape.`,
+      'Move the mesh to its origin in the program that made it, and put the distance into its node.',
+    );
+  if (lost.size > 0)
+    warn(
+      'positions-coarse',
+      `Parts that are far from the rest for their size, where floats are too far apart for their shape: ${named(lost)}.`,
+      'Bake them by themselves, or bring the parts nearer to one another.',
+    );
 }
 
 /** Up to three names, and how many more. */

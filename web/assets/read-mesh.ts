@@ -49,7 +49,7 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
   const scene = root.getDefaultScene() ?? root.listScenes()[0];
   if (!scene) throw noScene();
   refuseInstancing(document);
-  const memo = new Memo();
+  const memo = new Memo(document);
   const lines = { count: 0 };
   let vertices = 0;
 
@@ -87,8 +87,13 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
 
 /** What several parts of a scene have in common is read once. */
 class Memo {
+  readonly #document: Document;
   readonly #rows = new Map<Accessor, Float32Array>();
   readonly #matrices = new Map<Skin, Pick<PartSkin, 'matrices' | 'root'>>();
+
+  constructor(document: Document) {
+    this.#document = document;
+  }
 
   rows(accessor: Accessor, width: number): Float32Array {
     const known = this.#rows.get(accessor) ?? decode(accessor, width);
@@ -97,7 +102,7 @@ class Memo {
   }
 
   joints(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
-    const known = this.#matrices.get(skin) ?? jointsOf(skin);
+    const known = this.#matrices.get(skin) ?? jointsOf(skin, loadedNodes(this.#document));
     this.#matrices.set(skin, known);
     return known;
   }
@@ -130,16 +135,20 @@ function partOf({ node, primitive }: Source, { matrix, memo }: { matrix: Matrix;
   };
 }
 
-/** The matrices of a skin's joints in the scene; a joint may hang outside it. */
-function jointsOf(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
+/**
+ * The matrices of a skin's joints in the scene. A joint may hang outside every scene: then what nobody asks for above it counts for nothing, as in
+ * three.js, which does not load it.
+ */
+function jointsOf(skin: Skin, isLoaded: (node: Node) => boolean): Pick<PartSkin, 'matrices' | 'root'> {
   const joints = skin.listJoints();
   const inverses = skin.getInverseBindMatrices();
   const matrices = joints.map((joint, i) => {
     const inverse = inverses && i < inverses.getCount() ? inverses.getElement(i, []) : IDENTITY;
-    return multiplyMatrices(multiplyMatrices(worldMatrix(joint), inverse), IDENTITY);
+    return multiplyMatrices(multiplyMatrices(worldMatrix(joint, isLoaded), inverse), IDENTITY);
   });
   const isBelowAnother = (joint: Node) => {
-    for (let above = joint.getParentNode(); above; above = above.getParentNode()) if (joints.includes(above)) return true;
+    for (let above = joint.getParentNode(); above && isLoaded(above); above = above.getParentNode())
+      if (joints.includes(above)) return true;
     return false;
   };
   return {
@@ -151,9 +160,22 @@ function jointsOf(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
   };
 }
 
-function worldMatrix(node: Node): Matrix {
+function worldMatrix(node: Node, isLoaded: (node: Node) => boolean): Matrix {
   const parent = node.getParentNode();
-  return multiplyMatrices(parent ? worldMatrix(parent) : IDENTITY, localMatrix(node));
+  return multiplyMatrices(parent && isLoaded(parent) ? worldMatrix(parent, isLoaded) : IDENTITY, localMatrix(node));
+}
+
+/** Which nodes a viewer loads with what hangs below them: those that scenes and animations name, and so on. Joints it loads alone. */
+function loadedNodes(document: Document): (node: Node) => boolean {
+  const root = document.getRoot();
+  const named = new Set<Node | null>([
+    ...root.listScenes().flatMap((scene) => scene.listChildren()),
+    ...root.listAnimations().flatMap((animation) => animation.listChannels().map((channel) => channel.getTargetNode())),
+  ]);
+  return (node) => {
+    for (let above: Node | null = node; above; above = above.getParentNode()) if (named.has(above)) return true;
+    return false;
+  };
 }
 
 function localMatrix(node: Node): number[] {

@@ -13,8 +13,8 @@ export interface SceneWarning {
 /**
  * - `morphs-at-rest`: morph targets have weights, and the shape without them was read.
  * - `skin-posed`: a skeleton stands in a pose, and the skin was read in its rest shape.
- * - `left-out`: something is drawn that is no surface, or whose vertices only the graphics card knows.
- * - `positions-coarse`: so far from the origin that the stored floats have lost the shape.
+ * - `left-out`: something is drawn that is no surface, or whose vertices only the graphics card knows, relief of a displacement map among it.
+ * - `positions-coarse`: so far from the origin that the stored floats have lost the shape; or a part so far from the rest that the joined ones have.
  */
 export type SceneWarningCode = 'morphs-at-rest' | 'skin-posed' | 'left-out' | 'positions-coarse';
 

@@ -10,7 +10,7 @@
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
  *     "handles": [ { "name": "Nose", "vertex": 120 }, { "name": "Chest", "at": [x, y, z] }, … ],    optional: where it wants to be held
- *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] } },    optional: see `MeshReading`
+ *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] }, "origin": [x, y, z] },    optional: see `MeshReading`
  *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
  *     "voxels": accessor,      unsigned int SCALAR: the inside voxels as runs, see `voxel-runs.ts`
  *     "centers": accessor,     unsigned int SCALAR: vertices

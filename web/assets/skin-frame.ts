@@ -9,6 +9,7 @@ export interface PartSkin {
   readonly root: number;
   /** n×4: which joints move a vertex, and how much. */
   readonly joints: ArrayLike<number>;
+  /** Where a row is of zeros, its first joint has the vertex. */
   readonly weights: ArrayLike<number>;
 }
 
@@ -17,11 +18,12 @@ const SAME = 1e-5;
 
 /**
  * The matrix of the first joint, where the skeleton carries every vertex as that one does: the viewer then shows the skin there. In a pose
- * that of the root joint, which leaves the rest shape as it is and puts it near its place.
+ * that of the root joint, which leaves the rest shape as it is and puts it near its place. `drawn` is 1 for the vertices that count.
  */
 export function skinFrame(
   positions: ArrayLike<number>,
   { matrices, root, joints, weights }: PartSkin,
+  drawn: Uint8Array,
 ): { matrix: Matrix; posed: boolean } {
   const first = matrices[0] as Matrix;
   const place = new Float64Array(3);
@@ -29,6 +31,7 @@ export function skinFrame(
   const [low, high] = [new Float64Array(3).fill(Number.POSITIVE_INFINITY), new Float64Array(3).fill(Number.NEGATIVE_INFINITY)];
   let farthest = 0;
   for (let vertex = 0; vertex < positions.length / 3; vertex++) {
+    if (drawn[vertex] === 0) continue;
     carry(positions, vertex, first, place);
     for (let axis = 0; axis < 3; axis++) {
       const x = place[axis] as number;
@@ -36,9 +39,12 @@ export function skinFrame(
       if (x < (low[axis] as number)) low[axis] = x;
       if (x > (high[axis] as number)) high[axis] = x;
     }
+    let isBare = true;
+    for (let k = 4 * vertex; k < 4 * vertex + 4; k++) if (weights[k] !== 0) isBare = false;
     for (let k = 4 * vertex; k < 4 * vertex + 4; k++) {
       const matrix = matrices[joints[k] as number];
-      if (!((weights[k] as number) > 0) || !matrix || matrix === first) continue;
+      const isHeld = weights[k] !== 0 || (isBare && k === 4 * vertex);
+      if (!isHeld || !matrix || matrix === first) continue;
       carry(positions, vertex, matrix, other);
       const apart = (axis: number) => (other[axis] as number) - (place[axis] as number);
       const distance = Math.hypot(apart(0), apart(1), apart(2));

@@ -60,24 +60,26 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   const primitives = unshare(ranges);
   const notes = new Set<string>();
   // One accessor serves several primitives where it did before: what is equal at rest, and in the same place, is equal now.
-  const written = new Map<Accessor, { with: Accessor | null; matrix: string; to: Accessor }[]>();
+  const written = new Map<Accessor, Twin[]>();
 
   ranges.forEach((range, r) => {
     const primitive = primitives[r] as Primitive;
     const before = stored[r] as (typeof stored)[number];
-    const matrix = [...Array.from(range.matrix), ...(range.weights ?? [])].join();
+    const frame = { matrix: Array.from(range.matrix).join(), offset: offsetKey(range) };
     for (const attribute of ['POSITION', 'NORMAL'] as const) {
       const from = before[attribute];
       if (!from) continue;
       const twins = written.get(from) ?? [];
-      const twin = twins.find((w) => w.with === before.POSITION && w.matrix === matrix);
+      const twin = twins.find(
+        (w) => w.with === before.POSITION && w.matrix === frame.matrix && w.offset.every((x, i) => x === frame.offset[i]),
+      );
       const make = () => {
         const inverse = inverses[r] as Sixteen;
         const array = attribute === 'POSITION' ? positionsOf(range, shape.positions, inverse) : normalsOf(range, shape.normals);
         return document.createAccessor(from.getName(), from.getBuffer()).setType('VEC3').setArray(array);
       };
       const to = twin?.to ?? make();
-      if (!twin) written.set(from, [...twins, { with: before.POSITION, matrix, to }]);
+      if (!twin) written.set(from, [...twins, { with: before.POSITION, ...frame, to }]);
       primitive.setAttribute(attribute, to);
     }
     if (primitive.getAttribute('TANGENT')) {
@@ -90,6 +92,22 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   for (const from of written.keys())
     if (!from.isDisposed() && from.listParents().every((parent) => parent === document.getRoot())) from.dispose();
   return [...notes];
+}
+
+/** What was written, and what it depends on beside the accessor that it replaces. */
+interface Twin {
+  readonly with: Accessor | null;
+  readonly matrix: string;
+  readonly offset: readonly unknown[];
+  readonly to: Accessor;
+}
+
+/** The morph targets that were in the shape, and their weights; always as many items. */
+function offsetKey({ primitive, weights }: PrimitiveRange): unknown[] {
+  if (!weights) return [];
+  return primitive
+    .listTargets()
+    .flatMap((target, k) => [weights[k], target.getAttribute('POSITION'), target.getAttribute('NORMAL')]);
 }
 
 /** One primitive a range that no other node uses: a mesh with several users is copied for each but the last. */

@@ -1,20 +1,20 @@
-import { type Mesh, type Object3D, type PerspectiveCamera, Vector3 } from 'three';
+import { Box3, type Mesh, type Object3D, type PerspectiveCamera, Vector3 } from 'three';
 
 /** The part of the view's height and width that the object takes. */
 const FILL = 0.74;
 /** Enough vertices to know an outline by. */
 const SAMPLES = 4000;
 
-/** Where a camera that looks along −direction must be, and at what, so that the object's outline is in the middle and fills the view. */
+/** Where a camera that looks along −direction must be, and at what, so that an outline is in the middle and fills the view. */
 export function fitCamera(
-  object: Object3D,
+  outline: readonly Vector3[],
   center: Vector3,
   direction: Vector3,
   camera: PerspectiveCamera,
 ): { position: Vector3; target: Vector3 } {
   const right = new Vector3(direction.z, 0, -direction.x).normalize();
   const up = new Vector3().crossVectors(direction, right);
-  const points = outline(object).map((point) => point.sub(center));
+  const points = outline.map((point) => point.clone().sub(center));
   const tangent = Math.tan((camera.fov * Math.PI) / 360) * FILL;
   const target = new Vector3();
   let distance = 0;
@@ -37,17 +37,25 @@ export function fitCamera(
   return { position: target.clone().addScaledVector(direction, distance), target };
 }
 
-function outline(object: Object3D): Vector3[] {
-  const points: Vector3[] = [];
+/** What is seen of an object in the world, morphed and skinned: its box, and vertices enough to know its outline by. What nothing draws does not count. */
+export function drawnOf(object: Object3D): { box: Box3; outline: Vector3[] } {
+  const [box, outline, place] = [new Box3(), [] as Vector3[], new Vector3()];
   object.updateMatrixWorld(true);
-  object.traverse((part) => {
+  object.traverseVisible((part) => {
     const mesh = part as Mesh;
-    const position = mesh.isMesh ? mesh.geometry.getAttribute('position') : undefined;
+    const position = mesh.geometry?.getAttribute('position');
     if (!position) return;
-    const stride = Math.max(1, Math.floor(position.count / SAMPLES));
-    for (let i = 0; i < position.count; i += stride) {
-      points.push(new Vector3().fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld));
+    if ('isInstancedMesh' in mesh) box.expandByObject(mesh);
+    const { index, drawRange } = mesh.geometry;
+    const end = Math.min(index?.count ?? position.count, drawRange.start + drawRange.count);
+    const stride = Math.max(1, Math.floor((end - drawRange.start) / SAMPLES));
+    for (let i = drawRange.start; i < end; i++) {
+      const vertex = index ? index.getX(i) : i;
+      if (mesh.getVertexPosition) mesh.getVertexPosition(vertex, place);
+      else place.fromBufferAttribute(position, vertex);
+      box.expandByPoint(place.applyMatrix4(mesh.matrixWorld));
+      if ((i - drawRange.start) % stride === 0) outline.push(place.clone());
     }
   });
-  return points;
+  return { box, outline };
 }

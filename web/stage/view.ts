@@ -1,10 +1,10 @@
-import { Box3, MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
+import { MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
 import { isDark, onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
 import { disposeObject } from './dispose-object.ts';
 import { type Easel, easelOf, type PictureSize } from './easel.ts';
-import { fitCamera } from './fit-camera.ts';
+import { drawnOf, fitCamera } from './fit-camera.ts';
 import { keepTwoFingers, shareWheel } from './gestures.ts';
 import { StudioLight } from './light.ts';
 import { settleDepth } from './settle-depth.ts';
@@ -104,7 +104,7 @@ export class View {
   /** Puts the camera so that the object fills the view, seen from the given angles (degrees). */
   frame(object: Object3D, view: { azimuth: number; elevation: number }, grounded: boolean): void {
     this.#measure();
-    const box = new Box3().setFromObject(object);
+    const { box, outline } = drawnOf(object);
     const sphere = box.getBoundingSphere(new Sphere());
     const [azimuth, elevation] = [(view.azimuth * Math.PI) / 180, (view.elevation * Math.PI) / 180];
     const direction = new Vector3(
@@ -117,7 +117,7 @@ export class View {
     this.camera.updateProjectionMatrix();
     this.controls.minDistance = sphere.radius * 0.35;
     this.controls.maxDistance = sphere.radius * 14;
-    this.#home = fitCamera(object, sphere.center, direction, this.camera);
+    this.#home = fitCamera(outline, sphere.center, direction, this.camera);
     this.light.fit(sphere.center, sphere.radius, azimuth, grounded ? box.min.y : undefined);
     this.camera.position.copy(this.#home.position);
     this.controls.target.copy(this.#home.target);

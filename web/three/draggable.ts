@@ -226,6 +226,7 @@ export class Draggable {
     camera.updateWorldMatrix(true, false);
     const at = new Vector2(((from.clientX - left) / width) * 2 - 1, 1 - ((from.clientY - top) / height) * 2);
     this.#raycaster.setFromCamera(at, camera);
+    this.#raycaster.layers.mask = camera.layers.mask;
     return this.#shown.pick(this.#raycaster);
   }
 

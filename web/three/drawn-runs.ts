@@ -1,5 +1,6 @@
 /** Which of a mesh's triangles three.js draws: its draw range, its groups, its materials. */
-import type { BufferGeometry, Material, Points, Mesh as ThreeMesh } from 'three';
+
+import type { BufferGeometry, Material, MeshStandardMaterial, Points, Mesh as ThreeMesh } from 'three';
 import type { DrawnRun } from '../assets/drawn-corners.ts';
 
 /** Undefined where all is drawn. `hidden` counts groups of materials that are not visible as well. */
@@ -18,6 +19,14 @@ export function isInvisible({ material }: ThreeMesh | Points): boolean {
   return [material].flat().every((each) => !each?.visible);
 }
 
+/** Whether the graphics card moves its vertices by a picture. */
+export function isDisplaced({ material }: ThreeMesh | Points): boolean {
+  return [material].flat().some((each) => {
+    const { displacementMap, displacementScale = 1 } = (each ?? {}) as Partial<MeshStandardMaterial>;
+    return displacementMap && displacementScale !== 0;
+  });
+}
+
 /** A reason why the vertices that are drawn are not those that a program can see; undefined where they are. */
 export function unreadable(geometry: BufferGeometry): string | undefined {
   if ('isInstancedBufferGeometry' in geometry) return 'whose copies are placed by the graphics card';
@@ -27,7 +36,9 @@ export function unreadable(geometry: BufferGeometry): string | undefined {
 
 function both(a: DrawnRun, b: DrawnRun): DrawnRun {
   const start = Math.max(a.start, b.start);
-  return { start, count: Math.max(Math.min(a.start + a.count, b.start + b.count) - start, 0) };
+  const count = Math.min(a.start + a.count, b.start + b.count) - start;
+  // Of what is no number nothing is drawn.
+  return count > 0 ? { start, count } : { start: 0, count: 0 };
 }
 
 /** Groups may overlap, to draw a triangle in two materials: it counts once. */

@@ -5,7 +5,7 @@ import { joinScene, morphOffset, type ScenePart } from '../assets/join-scene.ts'
 import type { SceneChoices } from '../assets/scene-choices.ts';
 import { multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
-import { drawnRuns, isInvisible, unreadable } from './drawn-runs.ts';
+import { drawnRuns, isDisplaced, isInvisible, unreadable } from './drawn-runs.ts';
 import { indicesOf, instancesOf, isInstanced, type ObjectInstance } from './instances.ts';
 import { morphDisplacements } from './morphs.ts';
 import { collectNormals, isMesh, isPoints, isSkinned, type ObjectMesh, type ObjectPart } from './object-part.ts';
@@ -36,7 +36,7 @@ type Source = Pick<ObjectPart, 'mesh' | 'instance'>;
  * ```
  */
 export function meshFromObject(object: Object3D, choices: SceneChoices = {}): ObjectMesh {
-  const plain = asksForMore(choices) ? undefined : plainObject(object);
+  const plain = asksForMore(choices) ? undefined : plainObject(object, choices.reading?.origin);
   return plain ?? readParts(object, choices);
 }
 
@@ -47,15 +47,17 @@ function readParts(object: Object3D, choices: SceneChoices): ObjectMesh {
   const takesHidden = choices.hidden === 'take' || choices.reading !== undefined;
   const visit = (node: Object3D, isHidden: boolean) => {
     const what = isReadable(node) ? addParts(node, isHidden) : isDrawnOtherwise(node);
-    if (what) leftOut.set(what, [...(leftOut.get(what) ?? []), node.name]);
+    if (what && !isHidden) leaveOut(`Left out, ${what}`, node);
     for (const child of childrenOf(node)) visit(child, isHidden || (!child.visible && !isLevel(child)));
   };
+  const leaveOut = (what: string, { name }: Object3D) => leftOut.set(what, [...(leftOut.get(what) ?? []), name]);
   const addParts = (mesh: ThreeMesh | Points, isHidden: boolean): string | undefined => {
     const reason = unreadable(mesh.geometry);
     if (reason) return reason;
     const instances = isInstanced(mesh) ? instancesOf(mesh) : [undefined];
     if (!instances) return 'whose instances this release of three.js does not tell';
     const hidden = isHidden || isInvisible(mesh);
+    if (!hidden && isDisplaced(mesh)) leaveOut(RELIEF, mesh);
     for (const instance of instances) found.push(partOf(mesh, { instance, hidden, places, takesHidden }));
     return undefined;
   };
@@ -63,8 +65,11 @@ function readParts(object: Object3D, choices: SceneChoices): ObjectMesh {
   for (const [what, names] of leftOut)
     choices.onWarning?.({
       code: 'left-out',
-      message: `Left out, ${what}: ${names.length} of the object's parts${names.some(Boolean) ? ` (${names.filter(Boolean).slice(0, 3).join(', ')})` : ''}.`,
-      remedy: 'Make meshes of them, if they belong to the surface.',
+      message: `${what}: ${names.length} of the object's parts${names.some(Boolean) ? ` (${names.filter(Boolean).slice(0, 3).join(', ')})` : ''}.`,
+      remedy:
+        what === RELIEF
+          ? 'Apply the maps to their meshes in a modeling program, if the relief belongs to the surface.'
+          : 'Make meshes of them, if they belong to the surface.',
     });
 
   const { mesh, parts: joined } = joinScene(found, choices);
@@ -74,6 +79,8 @@ function readParts(object: Object3D, choices: SceneChoices): ObjectMesh {
   }));
   return { mesh, parts, normals: collectNormals(parts, normalsOf) };
 }
+
+const RELIEF = 'What displacement maps add was left out';
 
 interface PartOptions {
   readonly instance: ObjectInstance | undefined;
@@ -90,7 +97,7 @@ function partOf(mesh: ThreeMesh | Points, { instance, hidden, places, takesHidde
   const indices = range ? indicesOf(geometry, range) : geometry.index?.array;
   const drawn = range ? undefined : drawnRuns(mesh, takesHidden);
   return {
-    source: { mesh, instance: instance && { ...instance, meshMatrix } },
+    source: { mesh, instance: instance && { ...instance, meshMatrix, isTop: mesh === places.object } },
     name: mesh.name || geometry.name || 'a mesh without a name',
     hidden: hidden || instance?.visible === false,
     mode: isPoints(mesh) ? 0 : 4,

@@ -15,7 +15,7 @@ import {
 } from 'three';
 import { morphOffset } from '../assets/join-scene.ts';
 import { decode } from './decode.ts';
-import type { Instanced, ObjectInstance } from './instances.ts';
+import { hideInstances, type Instanced, type ObjectInstance } from './instances.ts';
 import type { Stand } from './live-geometry.ts';
 import { morphDisplacements } from './morphs.ts';
 import type { ObjectPart } from './object-part.ts';
@@ -26,19 +26,33 @@ interface Rows {
   readonly width: number;
 }
 
+/** What the mesh has of the original's, at any time: how it is shown. */
+const LOOKS = [
+  ...['name', 'layers', 'castShadow', 'receiveShadow', 'frustumCulled', 'renderOrder', 'userData'],
+  ...['customDepthMaterial', 'customDistanceMaterial'],
+];
+/** And where, with what is below it. */
+const PLACE = [
+  ...['position', 'rotation', 'quaternion', 'scale', 'pivot', 'up', 'matrix', 'matrixWorld', 'visible', 'children'],
+  ...['matrixAutoUpdate', 'matrixWorldAutoUpdate', 'matrixWorldNeedsUpdate'],
+];
+
 /**
- * A mesh of all the instances' vertices, in the order of the parts. It has the material, the layers and the other ways of being shown of
- * the original, whose children it takes along; `follow()` keeps it where the original is put.
+ * A mesh of all the instances' vertices, in the order of the parts. It stands in the place of the original, of which it has all but the
+ * geometry, now and later: who moves, hides or steers that one moves, hides and steers this one. Where the original is the object itself,
+ * which others hold and move through their scenes, it stays, draws no instance and carries the mesh.
  */
 export function standFor(parts: readonly ObjectPart[]): Stand {
   const [first] = parts as [ObjectPart];
   const original = first.mesh as Instanced;
   const instances = parts.map(({ instance }) => instance as ObjectInstance);
-  const mesh = new Mesh(joinedGeometry(original, instances), materialFor(original));
-  showAs(mesh, original);
-  const own = instances[0]?.weights !== undefined;
-  const weights = setMorphs(mesh, original, instances) ? (own ? first.weights && [1] : first.weights) : undefined;
-  const end = takePlace(mesh, original);
+  const isTop = first.instance?.isTop === true || original.parent === null;
+  const mesh = new Mesh(joinedGeometry(original, instances));
+  share(mesh, original, isTop ? LOOKS : [...LOOKS, ...PLACE]);
+  if (hasColors(original)) mesh.material = coloredMaterial(original);
+  else share(mesh, original, ['material']);
+  const weights = setMorphs(mesh, original, parts);
+  const end = takePlace(mesh, original, isTop);
   return {
     part: {
       mesh,
@@ -47,61 +61,62 @@ export function standFor(parts: readonly ObjectPart[]): Stand {
       matrix: first.instance?.meshMatrix ?? first.matrix,
       ...{ origin: first.origin, weights },
     },
-    follow: () => follow(mesh, original),
     end() {
       end();
       mesh.geometry.dispose();
-      for (const each of [mesh.material].flat()) if (![original.material].flat().includes(each)) each.dispose();
+      for (const each of [mesh.material].flat()) if (![original.material].flat().includes(each)) each?.dispose();
     },
   };
 }
 
-function showAs(mesh: ThreeMesh, original: Instanced): void {
-  const { name, castShadow, receiveShadow, frustumCulled, renderOrder, userData } = original;
-  Object.assign(mesh, { name, castShadow, receiveShadow, frustumCulled, renderOrder, userData });
-  mesh.layers.mask = original.layers.mask;
-  mesh.customDepthMaterial = original.customDepthMaterial;
-  mesh.customDistanceMaterial = original.customDistanceMaterial;
+function share(mesh: ThreeMesh, original: Instanced, names: readonly string[]): void {
+  const owner = original as unknown as Record<string, unknown>;
+  for (const name of names)
+    Object.defineProperty(mesh, name, {
+      get: () => owner[name],
+      set: (value) => {
+        owner[name] = value;
+      },
+      enumerable: true,
+      configurable: true,
+    });
 }
 
-function follow(mesh: ThreeMesh, original: Instanced): void {
-  if (mesh.parent === original) return;
-  mesh.matrixAutoUpdate = original.matrixAutoUpdate;
-  if (mesh.matrixAutoUpdate) {
-    mesh.position.copy(original.position);
-    mesh.quaternion.copy(original.quaternion);
-    mesh.scale.copy(original.scale);
-  } else mesh.matrix.copy(original.matrix);
-  mesh.visible = original.visible;
+/** The meshes that stand for an original, the last of which is shown, and what has its instances drawn again. */
+interface Standing {
+  readonly meshes: ThreeMesh[];
+  readonly unhide: (() => void) | undefined;
 }
 
-/** Stands where the original stood among its siblings; the original keeps its parent, so that its place in the world stays known. */
-function takePlace(mesh: ThreeMesh, original: Instanced): () => void {
-  const { parent, layers } = original;
-  if (!parent) {
-    // It is the top of what is shown: it stays, unseen by any camera, and carries the mesh.
-    const { mask } = layers;
-    original.add(mesh);
-    layers.mask = 0;
-    return () => {
-      original.remove(mesh);
-      layers.mask = mask;
-    };
-  }
-  follow(mesh, original);
-  exchange(original, mesh, parent);
+const standing = new WeakMap<Instanced, Standing>();
+
+/** Deformations may end in another order than they began. The original keeps its parent, so that its place in the world stays known. */
+function takePlace(mesh: ThreeMesh, original: Instanced, isTop: boolean): () => void {
+  const known = standing.get(original);
+  const { meshes, unhide } = known ?? { meshes: [], unhide: isTop ? hideInstances(original) : undefined };
+  standing.set(original, { meshes, unhide });
+  const shown = () => meshes.at(-1) ?? original;
+  if (isTop && !known) {
+    // Before its other children: vertices keep their order.
+    mesh.parent = original;
+    original.children.unshift(mesh);
+  } else replace(shown(), mesh);
+  meshes.push(mesh);
   return () => {
-    if (mesh.parent) exchange(mesh, original, mesh.parent);
+    meshes.splice(meshes.indexOf(mesh), 1);
+    if (meshes.length === 0) standing.delete(original);
+    // One that is not shown is in nobody's list, and this changes nothing.
+    if (!isTop || meshes.length > 0) replace(mesh, shown());
+    else mesh.removeFromParent();
+    if (meshes.length === 0) unhide?.();
   };
 }
 
-function exchange(from: Object3D, to: Object3D, parent: Object3D): void {
-  const at = parent.children.indexOf(from);
-  if (at !== -1) parent.children[at] = to;
+function replace(from: Object3D, to: Object3D): void {
+  const { parent } = from;
+  const at = parent?.children.indexOf(from) ?? -1;
+  if (parent && at !== -1) parent.children[at] = to;
   to.parent = parent;
-  to.children.push(...from.children);
-  for (const child of to.children) child.parent = to;
-  from.children.length = 0;
 }
 
 function joinedGeometry(original: Instanced, instances: readonly ObjectInstance[]): BufferGeometry {
@@ -181,14 +196,13 @@ function hasColors(original: Instanced): boolean {
 }
 
 function usesColors({ material }: Instanced): boolean {
-  return [material].flat().some(({ vertexColors }) => vertexColors);
+  return [material].flat().some((each) => each?.vertexColors);
 }
 
 /** Colors of instances show with every material, those of vertices only where the material says so: then with a copy that does. */
-function materialFor(original: Instanced): Material | Material[] {
-  const { material } = original;
-  if (!hasColors(original)) return material;
-  const colored = (each: Material) => (each.vertexColors ? each : Object.assign(each.clone(), { vertexColors: true }));
+function coloredMaterial({ material }: Instanced): Material | Material[] {
+  // A list may have gaps.
+  const colored = (each: Material) => (!each || each.vertexColors ? each : Object.assign(each.clone(), { vertexColors: true }));
   return Array.isArray(material) ? material.map(colored) : colored(material);
 }
 
@@ -200,7 +214,9 @@ interface Joining {
 
 function setIndex(joined: BufferGeometry, geometry: BufferGeometry, { instances, starts, counts }: Joining): void {
   const numbers: number[] = [];
-  instances.forEach(({ range }, i) => {
+  instances.forEach(({ range, visible }, i) => {
+    // Read all the same, where hidden parts were asked for.
+    if (!visible) return;
     const begin = numbers.length;
     const { index } = geometry;
     const run = range?.run ?? { start: 0, count: index?.count ?? (counts[i] as number) };
@@ -223,40 +239,40 @@ function setIndex(joined: BufferGeometry, geometry: BufferGeometry, { instances,
 }
 
 /**
- * Morph targets of the instances: those of the mesh where all have its weights, else one that adds what each one's own weights do. Returns
- * whether there are any.
+ * Morph targets of the instances: those of the mesh where all have its weights. Else one that adds what each one's own weights do, and one
+ * that adds what they did when they were read. Returns the weights that are in the shape, if any.
  */
-function setMorphs(mesh: ThreeMesh, original: Instanced, instances: readonly ObjectInstance[]): boolean {
+function setMorphs(mesh: ThreeMesh, original: Instanced, parts: readonly ObjectPart[]): readonly number[] | undefined {
   const { geometry } = original;
+  const own = parts[0]?.instance?.weights !== undefined;
   const count = geometry.morphAttributes.position?.length ?? 0;
-  if (count === 0 || 'isBatchedMesh' in original) return false;
-  const own = instances[0]?.weights !== undefined;
+  if (count === 0 || 'isBatchedMesh' in original || !(own || original.morphTargetInfluences)) return undefined;
+  const now = parts.map(({ instance }) => instance?.weights ?? []);
+  const read = parts.map(({ weights }) => weights ?? []);
+  const isRead = parts.some(({ weights }) => weights);
+  const targets = own ? (isRead ? [now, read] : [now]) : Array.from({ length: count }, (_, k) => parts.map(() => only(k)));
   for (const name of ['position', 'normal'] as const) {
     const displacements = morphDisplacements(geometry, name);
     if (displacements.length === 0) continue;
-    const target = (k: number | undefined) =>
-      concatenated(
-        instances.map((instance) => {
-          const rows =
-            k === undefined
-              ? Float32Array.from(morphOffset(displacements[0]?.length ?? 0, displacements, instance.weights ?? []))
-              : (displacements[k] as Float32Array).slice();
-          return carried(name, rows, instance);
-        }),
-      );
-    const numbers = own ? [undefined] : displacements.keys();
-    mesh.geometry.morphAttributes[name] = Array.from(numbers, (k) => new BufferAttribute(target(k), 3));
+    mesh.geometry.morphAttributes[name] = targets.map((target) => {
+      const rows = parts.map(({ instance }, i) => {
+        const offset = morphOffset(displacements[0]?.length ?? 0, displacements, target[i] as readonly number[]);
+        return carried(name, Float32Array.from(offset), instance as ObjectInstance);
+      });
+      return new BufferAttribute(concatenated(rows), 3);
+    });
   }
   mesh.geometry.morphTargetsRelative = true;
-  mesh.updateMorphTargets();
-  if (own) mesh.morphTargetInfluences = [1];
-  // Shared, so that who steers the original steers what is shown.
-  else
-    Object.assign(mesh, {
-      morphTargetInfluences: original.morphTargetInfluences,
-      morphTargetDictionary: original.morphTargetDictionary,
-    });
-  return true;
+  if (!own) share(mesh, original, ['morphTargetInfluences', 'morphTargetDictionary']);
+  else mesh.morphTargetInfluences = isRead ? [1, 0] : [1];
+  return own ? (isRead ? [0, 1] : undefined) : parts[0]?.weights;
+}
+
+/** The weights of one target alone. */
+function only(k: number): number[] {
+  const weights = new Array<number>(k + 1).fill(0);
+  weights[k] = 1;
+  return weights;
 }
 
 /** Displacements, which know no place. */

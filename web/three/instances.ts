@@ -30,11 +30,13 @@ export function instancesOf(mesh: Instanced): ObjectInstance[] | undefined {
 
 function copiesOf(mesh: InstancedMesh): ObjectInstance[] {
   const own = mesh.morphTexture ? new Mesh() : undefined;
+  // three.js gives an InstancedMesh no weights of its own to count.
+  const [targets = []] = Object.values(mesh.geometry.morphAttributes);
   return Array.from({ length: Math.min(mesh.count, mesh.instanceMatrix.count) }, (_, index) => {
     const matrix = new Matrix4();
     mesh.getMatrixAt(index, matrix);
     if (own) {
-      own.morphTargetInfluences = mesh.morphTargetInfluences?.slice() ?? [];
+      own.morphTargetInfluences = targets.map(() => 0);
       mesh.getMorphAt(index, own);
     }
     return { index, visible: true, matrix: matrix.toArray(), range: undefined, weights: own?.morphTargetInfluences };
@@ -63,6 +65,23 @@ function batchOf(mesh: BatchedMesh): ObjectInstance[] {
     });
   }
   return found;
+}
+
+/** Has none of them drawn; returns what has them drawn again. */
+export function hideInstances(mesh: Instanced): () => void {
+  if (!('isBatchedMesh' in mesh)) {
+    const { count } = mesh;
+    mesh.count = 0;
+    return () => {
+      mesh.count = count;
+    };
+  }
+  const batch = mesh as BatchedMesh;
+  const visible = batchOf(batch).filter((instance) => instance.visible);
+  for (const { index } of visible) batch.setVisibleAt(index, false);
+  return () => {
+    for (const { index } of visible) batch.setVisibleAt(index, true);
+  };
 }
 
 /** The run of a geometry's index that an instance draws, in numbers of its own vertices; undefined where it has no index. */

@@ -13,8 +13,6 @@ interface WithBoundsTree {
 /** The instances of one mesh, shown as a plain mesh. */
 export interface Stand {
   readonly part: ObjectPart;
-  /** Puts it where the original is now. */
-  follow(): void;
   /** Puts the original back. */
   end(): void;
 }
@@ -44,7 +42,6 @@ export class LiveGeometry {
   update(positions: ArrayLike<number>, normals?: ArrayLike<number>): void {
     checkLength('positions', positions.length, this.vertexCount);
     if (normals) checkLength('normals', normals.length, this.vertexCount);
-    for (const stand of this.#stands) stand.follow();
     for (const part of this.#parts) {
       writePositions(part, positions);
       if (normals) writeNormals(part, normals);

@@ -1,5 +1,5 @@
 /** One mesh of an object while it is being deformed: a geometry of its own, and the way into its space. */
-import { Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, type Object3D, Sphere } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, type Material, type Object3D, Sphere } from 'three';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { invertAffine, isIdentity, type Sixteen } from '../assets/transform.ts';
 import { decode } from './decode.ts';
@@ -41,7 +41,7 @@ export function beginPart(part: ObjectPart, inverse: Sixteen | undefined, { tang
   const found = mesh.geometry;
   let original = found;
   for (let older = before.get(original); older; older = before.get(original)) original = older;
-  const geometry = livingCopy(original);
+  const geometry = livingCopy(original, mesh.material);
   Morphs?.makeRelative(geometry, original);
   const tangents = tangentsOf?.(original);
   if (tangents) geometry.setAttribute('tangent', tangents.attribute);
@@ -82,12 +82,15 @@ export function inverseOf({ matrix, mesh, origin }: Pick<ObjectPart, 'matrix' | 
 }
 
 /** Shares all but positions and normals with the original. */
-function livingCopy(original: BufferGeometry): BufferGeometry {
+function livingCopy(original: BufferGeometry, material: Material | Material[]): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.name = original.name;
   geometry.userData = original.userData;
   geometry.index = original.index;
-  geometry.groups = original.groups;
+  // Groups without a material are not drawn, and a raycast of three.js fails on them.
+  geometry.groups = Array.isArray(material)
+    ? original.groups.filter(({ materialIndex = 0 }) => material[materialIndex])
+    : original.groups;
   geometry.morphAttributes = original.morphAttributes;
   geometry.morphTargetsRelative = original.morphTargetsRelative;
   geometry.setDrawRange(original.drawRange.start, original.drawRange.count);

@@ -17,8 +17,8 @@ export interface ObjectPart {
   readonly origin?: Mesh['origin'];
   /** The weights of morph targets that are in the joined mesh, if any. */
   readonly weights?: readonly number[] | undefined;
-  /** Of an InstancedMesh or a BatchedMesh: which copy, and from the mesh's space to the object's. */
-  readonly instance?: (ObjectInstance & { readonly meshMatrix: Matrix }) | undefined;
+  /** Of an InstancedMesh or a BatchedMesh: which copy, from the mesh's space to the object's, and whether the mesh is the object itself. */
+  readonly instance?: (ObjectInstance & { readonly meshMatrix: Matrix; readonly isTop: boolean }) | undefined;
 }
 
 /** The joined mesh of an object, and where its parts are. */
@@ -73,6 +73,7 @@ export function isPoints(node: Object3D): node is Points {
   return (node as Partial<Points>).isPoints === true;
 }
 
+/** By a skeleton: without one nothing moves it. */
 export function isSkinned(mesh: Object3D): mesh is SkinnedMesh {
-  return (mesh as Partial<SkinnedMesh>).isSkinnedMesh === true;
+  return (mesh as Partial<SkinnedMesh>).isSkinnedMesh === true && (mesh as Partial<SkinnedMesh>).skeleton !== undefined;
 }

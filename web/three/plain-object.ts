@@ -1,4 +1,5 @@
 import type { Object3D, Mesh as ThreeMesh } from 'three';
+import type { Vec3 } from '../../wasm/ts/types.ts';
 import { concatenate, type MeshRange } from '../assets/concatenate.ts';
 import type { SceneChoices } from '../assets/scene-choices.ts';
 import { IDENTITY, type Matrix, multiplyMatrices } from '../assets/transform.ts';
@@ -7,9 +8,9 @@ import { collectNormals, isMesh, isSkinned, type ObjectMesh } from './object-par
 
 /**
  * What `meshFromObject` gives for an object of nothing but plain meshes, all of them drawn whole and as stored, which most models are;
- * undefined for others. Pages fetch the rest of it only for those.
+ * undefined for others. Pages fetch the rest of it only for those. `known`: the origin that it had when it was read before.
  */
-export function plainObject(object: Object3D): ObjectMesh | undefined {
+export function plainObject(object: Object3D, known?: Vec3): ObjectMesh | undefined {
   const found: { mesh: ThreeMesh; matrix: Matrix }[] = [];
   let isPlain = true;
   const visit = (node: Object3D, parent: Matrix) => {
@@ -30,6 +31,7 @@ export function plainObject(object: Object3D): ObjectMesh | undefined {
       indices: geometry.index?.array,
       matrix,
     })),
+    { origin: known },
   );
   const { origin } = mesh;
   const parts = found.map((part, i) => {
@@ -41,7 +43,7 @@ export function plainObject(object: Object3D): ObjectMesh | undefined {
 
 /** Whether choices ask for more than what is drawn: for what was drawn once, or for warnings. */
 export function asksForMore({ reading = {}, onWarning }: SceneChoices): boolean {
-  return onWarning !== undefined || Object.keys(reading).length > 0;
+  return onWarning !== undefined || Object.keys(reading).some((name) => name !== 'origin');
 }
 
 const SPECIAL = ['isPoints', 'isLine', 'isSprite', 'isLOD', 'isInstancedMesh', 'isBatchedMesh'];

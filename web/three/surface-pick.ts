@@ -29,8 +29,9 @@ export function castAt(parts: readonly ObjectPart[], raycaster: Raycaster): Inte
     if (isSkinned(part.mesh)) forgetBounds(part.mesh);
     raycaster.intersectObject(part.mesh, false, hits);
   }
+  // Where a draw range ends within a triangle, three.js finds hits that are no numbers.
   return hits.reduce<Intersection | undefined>(
-    (nearest, hit) => (nearest && nearest.distance <= hit.distance ? nearest : hit),
+    (nearest, hit) => (hit.distance < (nearest?.distance ?? Number.POSITIVE_INFINITY) ? hit : nearest),
     undefined,
   );
 }

@@ -9,6 +9,7 @@ import {
   type Object3D,
   Vector3,
 } from 'three';
+import { expect } from 'vitest';
 
 /** Nine numbers for each triangle that is drawn, in world space, in the order of the tree. */
 export function drawnTriangles(object: Object3D): number[][] {
@@ -24,7 +25,8 @@ export function drawnTriangles(object: Object3D): number[][] {
   return triangles;
 }
 
-function trianglesOf(mesh: Mesh): number[][] {
+/** Those of one mesh, where the matrices of the world have it. */
+export function trianglesOf(mesh: Mesh): number[][] {
   const { geometry, material, matrixWorld } = mesh;
   if ('isBatchedMesh' in mesh) return batch(mesh as unknown as BatchedMesh);
   const runs = Array.isArray(material)
@@ -45,7 +47,7 @@ function trianglesOf(mesh: Mesh): number[][] {
       instanced.getMatrixAt(copy, matrix);
       frame.multiply(matrix);
       if (instanced.morphTexture) {
-        mesh.morphTargetInfluences = [...(own ?? [])];
+        mesh.morphTargetInfluences = (geometry.morphAttributes.position ?? []).map(() => 0);
         instanced.getMorphAt(copy, mesh);
       }
     }
@@ -57,7 +59,7 @@ function trianglesOf(mesh: Mesh): number[][] {
     }
     for (const at of [...drawn].sort((a, b) => a - b))
       triangles.push([0, 1, 2].flatMap((k) => cornerOf(mesh, geometry.index ? geometry.index.getX(at + k) : at + k, frame)));
-    if (own) mesh.morphTargetInfluences = own;
+    mesh.morphTargetInfluences = own as number[];
   }
   return triangles;
 }
@@ -91,4 +93,46 @@ function batch(mesh: BatchedMesh): number[][] {
       );
   }
   return triangles;
+}
+
+/** Triangles of a joined mesh at these positions, which may be relative to an origin. */
+export const joined = (triangles: ArrayLike<number>, positions: ArrayLike<number>, origin: readonly number[] = [0, 0, 0]) =>
+  Array.from({ length: triangles.length / 3 }, (_, t) =>
+    [0, 1, 2].flatMap((k) =>
+      [0, 1, 2].map((axis) => (positions[3 * (triangles[3 * t + k] as number) + axis] as number) + (origin[axis] as number)),
+    ),
+  );
+
+const ORDERS = [
+  [0, 1, 2],
+  [1, 2, 0],
+  [2, 0, 1],
+  [0, 2, 1],
+  [2, 1, 0],
+  [1, 0, 2],
+];
+
+/**
+ * The same triangles in the same order to a part of the diagonal, each begun and turned as it may be: readers turn those of mirrored meshes
+ * round. Floats of two reckonings differ a little, and three.js', which stays in the world, a little more.
+ */
+export function expectSame(got: readonly number[][], right: readonly number[][], tolerance = 1e-6): void {
+  expect(got.length).toBe(right.length);
+  expect(right.length).toBeGreaterThan(0);
+  const all = right.flat();
+  const along = (axis: number) => all.filter((_, i) => i % 3 === axis);
+  const diagonal = Math.hypot(
+    ...[0, 1, 2].map((axis) => along(axis).reduce((a, b) => Math.max(a, b)) - along(axis).reduce((a, b) => Math.min(a, b))),
+  );
+  const worst = got.reduce((most, triangle, t) => {
+    const other = right[t] as number[];
+    const apart = ORDERS.map((order) =>
+      triangle.reduce(
+        (far, x, i) => Math.max(far, Math.abs(x - (other[3 * (order[Math.floor(i / 3)] as number) + (i % 3)] as number))),
+        0,
+      ),
+    );
+    return Math.max(most, Math.min(...apart));
+  }, 0);
+  expect(worst / diagonal).toBeLessThan(tolerance);
 }

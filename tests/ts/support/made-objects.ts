@@ -119,18 +119,21 @@ export const instances: Made = (next) => {
   const geometry = shape(next);
   const count = 3;
   const own = next() > 0;
-  if (next() > -0.5) addMorphs(geometry, next);
+  const isMorphed = next() > -0.5;
+  if (isMorphed) addMorphs(geometry, next);
   const mesh = new InstancedMesh(geometry, material(), count);
   for (let i = 0; i < count; i++) {
     mesh.setMatrixAt(i, put(new Group(), next).matrix.compose(...placed(next)));
     if (next() > 0) mesh.setColorAt(i, new Color(Math.abs(next()), Math.abs(next()), Math.abs(next())));
-    if (mesh.morphTargetInfluences && own) {
+    if (isMorphed && own) {
       const weights = new Mesh(geometry);
-      weights.morphTargetInfluences = [next(), next()];
+      // Some of them stand still.
+      weights.morphTargetInfluences = next() > 0.4 ? [0, 0] : [next(), next()];
       mesh.setMorphAt(i, weights);
     }
   }
-  if (mesh.morphTargetInfluences && !own) mesh.morphTargetInfluences = [next(), next()];
+  // three.js gives an InstancedMesh none, and wants them where it has no texture of them.
+  if (isMorphed && !own) mesh.morphTargetInfluences = [next(), next()];
   if (next() > 0.5) mesh.count = 2;
   mesh.add(new Mesh(shape(next), material()));
   return nested(next, put(mesh, next), new Mesh(shape(next), material()));
