@@ -1,4 +1,4 @@
-/** The words for what can be wrong with a glTF, its container, and a baked body in it. */
+/** The words for what can be wrong with a glTF, its container, and the body and the pose spaces in it. */
 import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
 import { isNumber, show } from './gltf-json.ts';
 
@@ -27,6 +27,13 @@ const cut =
     code: 'file-truncated',
     message: `The file is cut off: it ${tell(...facts)}.`,
     remedy: 'Download or export it again.',
+  });
+const pose =
+  (tell: (...facts: Facts) => string): Telling =>
+  (facts) => ({
+    code: 'file-invalid',
+    message: `The pose space ${tell(...facts)}.`,
+    remedy: 'The file is damaged or was edited: export the pose space again.',
   });
 const body =
   (tell: (...facts: Facts) => string, remedy = BAKE): Telling =>
@@ -88,6 +95,32 @@ export const FAULTS = {
   sampler: gltf((i) => `animation ${i} has a damaged sampler`),
   channels: gltf((i) => `animation ${i} has no channels`),
 
+  'pose-version': ([version, release]) => ({
+    code: 'file-unsupported',
+    message: `The pose space has format version ${show(version)}; this release reads version ${release}.`,
+    remedy: 'Export the pose space again with this release, or update Handlebody.',
+  }),
+  'pose-lists': pose(() => 'lists no dimensions or no examples'),
+  'pose-dimension': pose(() => 'has a dimension without a name, or whose minimum is not below its maximum'),
+  'pose-names': pose(() => 'uses one name for two dimensions'),
+  'pose-example': pose((i) => `has no name for example ${i}`),
+  'pose-both': pose((i) => `gives example ${i} both weights and a target`),
+  'pose-target': ([name, target, count]) => ({
+    code: 'example-shape-mismatch',
+    message: `Example "${name}" is morph target ${show(target)} of a mesh that has ${count}.`,
+    remedy: 'Name a morph target of the mesh by its number, from 0.',
+  }),
+  'pose-count': ([what, name, expected, value]) => ({
+    code: 'example-shape-mismatch',
+    message: `The ${what} of example "${name}" needs ${expected} numbers and has ${Array.isArray(value) ? value.length : 'none'}.`,
+    remedy: 'Give one number a dimension for its place, and one weight for each morph target of the mesh.',
+  }),
+  'pose-numbers': ([what, name]) => ({
+    code: 'example-not-finite',
+    message: `The ${what} of example "${name}" is not made of finite numbers.`,
+    remedy: 'Export the pose space again.',
+  }),
+
   'body-version': ([version, release]) => ({
     code: 'body-version',
     message: `The baked body has format version ${show(version)}; this release reads version ${release}.`,
@@ -141,16 +174,18 @@ interface Named {
   readonly fault: keyof typeof FAULTS;
   readonly facts: Facts;
   readonly byte: number | undefined;
+  readonly example: number | undefined;
   readonly cause?: unknown;
 }
 
 /** The same fault as an error that says what is wrong. */
-export function worded({ fault, facts, byte, cause }: Named): HandlebodyError {
+export function worded({ fault, facts, byte, example, cause }: Named): HandlebodyError {
   const { code, message, remedy } = (FAULTS[fault] as Telling)(facts, cause);
   return new HandlebodyError(code, {
     message,
     remedy,
     ...(byte !== undefined && { culprit: { kind: 'byte', index: byte } }),
+    ...(example !== undefined && { culprit: { kind: 'example', index: example } }),
     cause,
   });
 }

@@ -2,20 +2,21 @@ import type { FAULTS } from './fault-words.ts';
 
 /**
  * What is wrong with a file, not yet in words. Those are many and long, and few files need them: pages fetch them for a file that does.
- * `byte` is where in the file, if that can be said.
+ * `byte` is where in the file, `example` of which example of a pose space, if that can be said.
  */
 export class Fault extends Error {
   readonly fault: keyof typeof FAULTS;
   readonly facts: readonly unknown[];
   readonly byte: number | undefined;
+  readonly example: number | undefined;
 
   constructor(
     fault: keyof typeof FAULTS,
     facts: readonly unknown[] = [],
-    { byte, cause }: { byte?: number; cause?: unknown } = {},
+    { byte, example, cause }: { byte?: number; example?: number; cause?: unknown } = {},
   ) {
     super(fault, { cause });
-    [this.fault, this.facts, this.byte] = [fault, facts, byte];
+    [this.fault, this.facts, this.byte, this.example] = [fault, facts, byte, example];
   }
 }
 

@@ -8,7 +8,22 @@ export interface ReadOptions {
 }
 
 /** Stable names of what a reader passes over. */
-export type FileWarningCode = keyof typeof KINDS;
+export type FileWarningCode =
+  | 'faces-degenerate'
+  | 'faces-crossing'
+  | 'triangles-flat'
+  | 'triangles-doubled'
+  | 'positions-bad'
+  | 'normals-bad'
+  | 'uvs-bad'
+  | 'normals-split'
+  | 'uvs-split'
+  | 'attributes-left-out'
+  | 'shapes-left-out'
+  | 'statements-unknown'
+  | 'numbers-left-over'
+  | 'data-left-over'
+  | 'keyword-missing';
 
 /** What a reader passed over: one for each kind, however often it occurs. */
 export interface FileWarning {
@@ -29,7 +44,7 @@ interface Kind {
 const many = (count: number, one: string, more = `${one}s`) => `${count} ${count === 1 ? one : more}`;
 const EXPORT = 'Export the model again if that is not what was meant.';
 
-const KINDS = {
+const KINDS: Readonly<Record<FileWarningCode, Kind>> = {
   /** Faces of one or two corners. */
   'faces-degenerate': { says: (n) => `${many(n, 'face')} of fewer than three corners left out.`, remedy: EXPORT },
   /** Polygons that cross themselves, which no set of triangles fills. */
@@ -99,7 +114,7 @@ const KINDS = {
   'data-left-over': { says: (n) => `${many(n, 'byte')} behind the end of the mesh passed over.`, remedy: EXPORT },
   /** A text that does not begin as its format does. */
   'keyword-missing': { says: () => 'The format’s name at the file’s beginning is missing.', remedy: EXPORT },
-} as const satisfies Record<string, Kind>;
+};
 
 /** Counts what is passed over in one file. */
 export class PassedOver {
@@ -112,7 +127,7 @@ export class PassedOver {
 
   /** One more, or `count`. `refusal` is what strict reading throws at once, unless the format allows what is passed over. */
   note(code: FileWarningCode, refusal: () => HandlebodyError, count = 1): void {
-    if (this.#strict && !('isSound' in KINDS[code])) throw refusal();
+    if (this.#strict && !KINDS[code].isSound) throw refusal();
     const known = this.#counts.get(code);
     if (known) known.count += count;
     else this.#counts.set(code, { count, first: refusal() });
@@ -129,7 +144,7 @@ export class PassedOver {
 
   warnings(): FileWarning[] {
     return [...this.#counts].map(([code, { count }]) => {
-      const { says, remedy }: Kind = KINDS[code];
+      const { says, remedy } = KINDS[code];
       return { code, message: says(count), remedy, count };
     });
   }

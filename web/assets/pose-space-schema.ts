@@ -12,8 +12,8 @@
  *
  * The extension is optional: viewers that do not know it show the mesh with its own weights.
  */
-import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { asObject, isNumber, show } from './gltf-json.ts';
+import { Fault } from './fault.ts';
+import { asObject, isNumber } from './gltf-json.ts';
 
 /** The format that is written and read. */
 export const POSE_SPACE_VERSION = 1;
@@ -38,42 +38,35 @@ export type PoseSpaceInput = StoredPoseSpace<{ readonly weights?: readonly numbe
 /**
  * Checks a pose space from the extension's JSON. `targetCount` is how many morph targets the mesh has.
  *
- * Throws 'file-unsupported' for an unknown version, otherwise 'file-invalid' or, naming an example, 'example-shape-mismatch' or
- * 'example-not-finite'.
+ * Throws a `Fault`: in words 'file-unsupported' for an unknown version, otherwise 'file-invalid' or, naming an example,
+ * 'example-shape-mismatch' or 'example-not-finite'.
  */
 export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: number }): PoseSpaceData {
   const space = asObject(json) ?? {};
   if (space.version !== POSE_SPACE_VERSION) {
-    throw new HandlebodyError('file-unsupported', {
-      message: `The pose space has format version ${show(space.version)}; this release reads version ${POSE_SPACE_VERSION}.`,
-      remedy: 'Export the pose space again with this release, or update Handlebody.',
-    });
+    throw new Fault('pose-version', [space.version, POSE_SPACE_VERSION]);
   }
   if (!Array.isArray(space.dimensions) || space.dimensions.length === 0 || !Array.isArray(space.examples)) {
-    throw poseInvalid('lists no dimensions or no examples');
+    throw new Fault('pose-lists');
   }
   const dimensions = space.dimensions.map((entry) => {
     const { name, min, max } = asObject(entry) ?? {};
     if (typeof name !== 'string' || !isNumber(min) || !isNumber(max) || min >= max) {
-      throw poseInvalid('has a dimension without a name, or whose minimum is not below its maximum');
+      throw new Fault('pose-dimension');
     }
     return { name, min, max };
   });
-  if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw poseInvalid('uses one name for two dimensions');
+  if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw new Fault('pose-names');
   const examples = space.examples.map((entry, index) => {
     const { name, at: place, weights, target } = asObject(entry) ?? {};
-    if (typeof name !== 'string') throw poseInvalid(`has no name for example ${index}`);
+    if (typeof name !== 'string') throw new Fault('pose-example', [index]);
     const at = exampleNumbers(place, { index, name, what: 'place', expected: dimensions.length });
     if (target === undefined) {
       return { name, at, weights: exampleNumbers(weights, { index, name, what: 'row of weights', expected: targetCount }) };
     }
-    if (weights !== undefined) throw poseInvalid(`gives example ${index} both weights and a target`);
+    if (weights !== undefined) throw new Fault('pose-both', [index]);
     if (!Number.isInteger(target) || (target as number) < 0 || (target as number) >= targetCount) {
-      throw new HandlebodyError('example-shape-mismatch', {
-        message: `Example "${name}" is morph target ${show(target)} of a mesh that has ${targetCount}.`,
-        remedy: 'Name a morph target of the mesh by its number, from 0.',
-        culprit: { kind: 'example', index },
-      });
+      throw new Fault('pose-target', [name, target, targetCount], { example: index });
     }
     const row = Array.from({ length: targetCount }, (_, i) => (i === target ? 1 : 0));
     return { name, at, weights: row, target: target as number };
@@ -95,27 +88,11 @@ export function poseSpaceDefinition({ version, dimensions, examples }: PoseSpace
 }
 
 function exampleNumbers(value: unknown, of: { index: number; name: string; what: string; expected: number }): number[] {
-  const culprit = { kind: 'example', index: of.index } as const;
   if (!Array.isArray(value) || value.length !== of.expected) {
-    throw new HandlebodyError('example-shape-mismatch', {
-      message: `The ${of.what} of example "${of.name}" needs ${of.expected} numbers and has ${Array.isArray(value) ? value.length : 'none'}.`,
-      remedy: 'Give one number a dimension for its place, and one weight for each morph target of the mesh.',
-      culprit,
-    });
+    throw new Fault('pose-count', [of.what, of.name, of.expected, value], { example: of.index });
   }
   if (!value.every(isNumber)) {
-    throw new HandlebodyError('example-not-finite', {
-      message: `The ${of.what} of example "${of.name}" is not made of finite numbers.`,
-      remedy: 'Export the pose space again.',
-      culprit,
-    });
+    throw new Fault('pose-numbers', [of.what, of.name], { example: of.index });
   }
   return [...value];
-}
-
-function poseInvalid(what: string): HandlebodyError {
-  return new HandlebodyError('file-invalid', {
-    message: `The pose space ${what}.`,
-    remedy: 'The file is damaged or was edited: export the pose space again.',
-  });
 }

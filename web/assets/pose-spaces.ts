@@ -2,6 +2,7 @@ import type { Document, Mesh } from '@gltf-transform/core';
 import { PoseSpaceExtension, type PoseSpaceProperty } from './pose-space-extension.ts';
 import { type PoseSpaceData, type PoseSpaceInput, parsePoseSpace, poseSpaceDefinition } from './pose-space-schema.ts';
 import { HANDLEBODY_POSE_SPACE } from './schema.ts';
+import { inWordsAtOnce } from './words-at-once.ts';
 
 /**
  * Gives a mesh a pose space, in place of one that it has. A mesh made by `mesh.clone()` shares the pose space of the original, which keeps
@@ -20,7 +21,7 @@ import { HANDLEBODY_POSE_SPACE } from './schema.ts';
  */
 export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceInput): PoseSpaceProperty {
   const definition = poseSpaceDefinition(poseSpace);
-  parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) });
+  inWordsAtOnce(() => parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) }));
   const former = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);
   const property = document.createExtension(PoseSpaceExtension).createPoseSpace().setDefinition(definition);
   mesh.setExtension(HANDLEBODY_POSE_SPACE, property);
@@ -45,7 +46,7 @@ export function readPoseSpaces(document: Document): (PoseSpaceData & { mesh: Mes
     .flatMap((mesh) => {
       const property = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);
       if (!property) return [];
-      return [{ mesh, ...parsePoseSpace(property.getDefinition(), { targetCount: morphTargetCount(mesh) }) }];
+      return [{ mesh, ...inWordsAtOnce(() => parsePoseSpace(property.getDefinition(), { targetCount: morphTargetCount(mesh) })) }];
     });
 }
 

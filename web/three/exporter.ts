@@ -96,7 +96,7 @@ function writePoseSpace({ json, nodeMap, extensionsUsed }: Writer, { meshes, ...
   });
   for (const index of new Set(users.map(({ mesh }) => mesh))) {
     const mesh = json.meshes?.[index] as MeshJson;
-    parsePoseSpace(definition, { targetCount: mesh.primitives[0]?.targets?.length ?? 0 });
+    inWordsAtOnce(() => parsePoseSpace(definition, { targetCount: mesh.primitives[0]?.targets?.length ?? 0 }));
     const own = users.filter((node) => node.mesh === index);
     const isShared = (json.nodes ?? []).some((node) => node.mesh === index && !own.includes(node as { mesh: number }));
     const written = { ...mesh, extensions: { ...mesh.extensions, [HANDLEBODY_POSE_SPACE]: definition } };

@@ -72,7 +72,7 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   async afterRoot(gltf: GLTF): Promise<void> {
     // A file without scenes shows nothing, and has no `gltf.scene`.
     const body = gltf.scene && (await inWords(() => this.#readBody(gltf.scene)));
-    const poseSpaces = await this.#readPoseSpaces(gltf);
+    const poseSpaces = await inWords(() => this.#readPoseSpaces(gltf));
     gltf.userData.handlebody = { ...(body && { body }), poseSpaces } satisfies HandlebodyData;
   }
 
