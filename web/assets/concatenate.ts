@@ -4,6 +4,7 @@
  */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { chooseOrigin } from '../../wasm/ts/origin.ts';
+import { placeUnheld } from '../../wasm/ts/placed-vertices.ts';
 import type { Mesh, Vec3 } from '../../wasm/ts/types.ts';
 import { determinant3, IDENTITY, isIdentity, type Matrix, type Sixteen } from './transform.ts';
 
@@ -92,6 +93,7 @@ export function concatenate(parts: readonly MeshPart[]): { mesh: Mesh; ranges: M
     });
     if (isCloud) gatherUndrawn(joined.positions, part, { start, runs: runs[i] as DrawnRun[] });
   });
+  if (!isCloud) placeUnheld(joined.positions, joined.triangles);
   return { mesh: { ...joined, ...(origin && { origin }) }, ranges };
 }
 
