@@ -68,7 +68,9 @@ function joined(geometry: BufferGeometry): BufferGeometry {
 function bent(body: BodyData): { positions: Float32Array; normals: Float32Array } {
   const irbf = hb.irbf(body, { precision: 'float' });
   const place = (v: number) => Array.from(body.mesh.positions.slice(3 * v, 3 * v + 3)) as [number, number, number];
-  irbf.setHandles([{ at: place(0) }, { at: place(body.mesh.triangles[Math.floor(body.mesh.triangles.length / 2)] as number) }]);
+  const away = (v: number) => Math.hypot(...place(v).map((x, axis) => x - (place(0)[axis] as number)));
+  const farthest = Array.from(body.mesh.triangles).reduce((most, v) => (away(v) > away(most) ? v : most));
+  irbf.setHandles([{ vertex: 0 }, { vertex: farthest }]);
   for (let axis = 0; axis < 3; axis++) irbf.targets[axis] = (irbf.targets[axis] as number) + 0.15;
   irbf.solve({ maxIterations: 50 });
   const positions = new Float32Array(body.mesh.positions.length);

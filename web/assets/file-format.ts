@@ -26,7 +26,7 @@ function formatOfText(head: string): FileFormat | undefined {
   const said = lines.filter((line) => line !== '');
   const [first = ''] = said;
   if (first === 'ply') return 'PLY';
-  if (/^((ST|C|N|4|n)*OFF|off)(\s|$)/.test(first)) return 'OFF';
+  if (/^((ST|C|N|4|n)*OFF|off)(\d|\s|$)/.test(first)) return 'OFF';
   if (/^(solid\b|facet\s+normal\b)/i.test(first) && /\bfacet\b/i.test(head)) return 'STL';
   const other = said.find((line) => !/^(mtllib|usemtl|o|g|s|vn|vt)(\s|$)/.test(line)) ?? '';
   return /^v(\s+[-+]?[.\d]\S*){3}/.test(other) ? 'OBJ' : undefined;

@@ -37,13 +37,13 @@ export async function runCommand(args: readonly string[]): Promise<number> {
       stream.on('error', listen);
   lost = undefined;
   try {
-    const status = await dispatch(args, report, interrupt.signal);
+    const status = await dispatch(args, report, interrupt.signal).catch((error: unknown) =>
+      report.error(interrupt.signal.aborted ? interrupted() : error),
+    );
     await setImmediate();
-    if (lost === undefined) return status;
+    if (lost === undefined || status === EXIT.output) return status;
     report.leaveStandardOutput();
     return report.error(unwritable('standard output', reason(lost), lost));
-  } catch (error) {
-    return report.error(interrupt.signal.aborted ? interrupted() : error);
   } finally {
     process.off('SIGINT', stop).off('SIGTERM', stop);
   }
