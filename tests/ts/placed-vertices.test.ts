@@ -144,5 +144,9 @@ describe('vertices of no face that are no numbers', () => {
     const positions = [0, 0, 0, 2, 4, 6, 1e30, 0, 0, 0, Number.NaN, 0];
     placeUnheld(positions, [0, 1, 0]);
     expect(positions).toEqual([0, 0, 0, 2, 4, 6, 1e30, 0, 0, 1, 2, 3]);
+    // A corner is not moved, though the middle of all were no place to complain of.
+    const corners = [0, 0, 0, 4e38, 0, 0, 0, 1, 0];
+    placeUnheld(corners, [0, 1, 2]);
+    expect(corners).toEqual([0, 0, 0, 4e38, 0, 0, 0, 1, 0]);
   });
 });

@@ -73,6 +73,13 @@ describe('the name of a file', () => {
     },
   );
 
+  it.each(['OFF8 12 0\n', 'COFF8 12 0\n', 'OFF 8 12 0\n', 'off8 12 0\n'])(
+    'counts for less than a keyword with a number behind it: %j',
+    (text) => {
+      expect(fileFormat(Buffer.from(text), 'model.obj')).toBe('OFF');
+    },
+  );
+
   it('counts where the content says nothing', () => {
     for (const [ending, format] of [
       ['obj', 'OBJ'],
