@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "made_meshes.hpp"
+
 using namespace handlebody;
 
 namespace {
@@ -93,6 +95,44 @@ TEST_CASE("nearly equal positions within reach of both are welded, chains of the
     CHECK(found < 280);
     CHECK(weld_vertices(positions, Vector::Zero(count)).to_unique == weld_vertices(positions).to_unique);
   }
+}
+
+TEST_CASE("a mesh whose corners rounding has parted is welded as the whole one is, and no gap that is one (seeds 31 to 50)") {
+  for (unsigned seed = 31; seed <= 50; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> sign(-1, 1);
+    const double size = std::pow(10, 4 * sign(random));
+    test::MadeMesh box = test::made_box({1, 1, 1}, {3, 3, 3});
+    box.positions *= size;
+    // Each corner of a triangle has a vertex of its own, moved by up to a part of the diagonal along each axis.
+    const auto parted = [&](double part) {
+      Points positions(box.triangles.size() + 1, 3);
+      for (Index k = 0; k < box.triangles.size(); ++k)
+        for (Index axis = 0; axis < 3; ++axis)
+          positions(k, axis) = box.positions(box.triangles.data()[k], axis) + part * size * sign(random);
+      positions.bottomRows(1).setConstant(1e30);  // what nothing uses is none of the diagonal
+      Triangles triangles(box.triangles.rows(), 3);
+      for (Index k = 0; k < triangles.size(); ++k) triangles.data()[k] = static_cast<std::uint32_t>(k);
+      return weld_mesh(positions, triangles);
+    };
+    const Weld near = parted(4e-7);
+    CHECK(near.unique.size() == static_cast<std::size_t>(box.positions.rows()) + 1);
+    for (Index k = 0; k < box.triangles.size(); ++k)
+      for (Index l = 0; l < k; ++l)
+        CHECK((near.to_unique[k] == near.to_unique[l]) == (box.triangles.data()[k] == box.triangles.data()[l]));
+    CHECK(parted(1e-4).unique.size() == static_cast<std::size_t>(box.triangles.size()) + 1);
+  }
+}
+
+TEST_CASE("short edges bring no vertices together that are as far apart as they are long") {
+  // A needle of a long triangle's side, whose short edge is within a millionth of the diagonal.
+  Points positions(6, 3);
+  positions << 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
+      0.3, 0.3, 0, 0.3 + 5e-7, 0.3, 0, 0.3, 0.3 + 5e-7, 0;
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 3, 4, 5;
+  CHECK(weld_mesh(positions, triangles).unique.size() == 6);
 }
 
 TEST_CASE("triangles are welded corner by corner") {

@@ -4,7 +4,7 @@ import { Document } from '@gltf-transform/core';
 import { afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 import { writeGlb } from '../../web/assets/index.ts';
 import { buildCommand, Workbench } from './support/cli.ts';
-import { binaryPly, binaryStl, obj, off, prism, stl, utf16 } from './support/made-files.mjs';
+import { binaryPly, binaryStl, obj, off, ply, prism, stl, utf16 } from './support/made-files.mjs';
 
 let script: string;
 let bench: Workbench;
@@ -73,6 +73,20 @@ it('says what it passes over, and with --strict refuses it', async () => {
     const { status, stderr } = await bench.run(...command, '--strict');
     expect([status, stderr]).toEqual([3, expect.stringMatching(/"odd\.obj": Line 1 .*"nan"[\s\S]*file-invalid/)]);
   }
+});
+
+it.each([
+  ['odd.obj', obj],
+  ['odd.off', off],
+  ['odd.ply', ply],
+])('says once what is odd about a surface, inspect as it is kept, bake as it is passed over: %s', async (name, write) => {
+  const odd = { points: [...bar.points, [1, 0.5, 0.5]], faces: [...bar.faces, bar.faces[0], bar.faces[3], [0, 0, 1]] };
+  writeFileSync(bench.at(name), write(odd as never));
+  const codes = (warnings: { code: string }[]) => warnings.map(({ code }) => code).sort();
+  expect(codes((await bench.json('inspect', name)).warnings)).toEqual(['triangles-doubled', 'triangles-flat']);
+  const { warnings } = await bench.json('bake', name, '-o', 'out.glb', '--centers', '20', '--resolution', '24');
+  expect(codes(warnings)).toEqual(['triangles-doubled', 'triangles-flat', 'vertices-unused']);
+  expect(JSON.stringify(warnings)).not.toContain('kept');
 });
 
 it.each([

@@ -1,5 +1,5 @@
 /** The command with models in several files, compressed ones, links and pipes: what it writes is whole, and it reads nothing it should not. */
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { lstatSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { Document, type Mesh, NodeIO } from '@gltf-transform/core';
@@ -232,6 +232,30 @@ describe('where outputs go', () => {
     );
     expect(checkGlb(piped).json.meshes).toHaveLength(1);
     expect((await bench.run('pose', 'faces.glb', '--at', 'valence=0.5', '-o', '/dev/null')).status).toBe(0);
+  });
+
+  it.each([
+    'pose faces.glb --at valence=0.5 -o -',
+    'pose faces.glb --at valence=0.5 -o /dev/stdout --json',
+    'pose faces.glb --at valence=0.5 -o /dev/full',
+    'pose faces.glb --at valence=0.5 -o out.glb --json',
+    'inspect faces.glb',
+    'inspect faces.glb --json',
+    'inspect nothing.glb --json',
+  ])('says so, where standard output or a device is full: %s', async (words) => {
+    await writeFaces(['face']);
+    const full = `"${process.execPath}" "${script}" ${words} > /dev/full; echo $?`;
+    const { stdout, stderr } = spawnSync('sh', ['-c', full], { cwd: bench.folder, encoding: 'utf8' });
+    expect([stdout.trim(), stderr.includes('output-unwritable'), /\n\s+at /.test(stderr)]).toEqual(['5', true, false]);
+  });
+
+  it.each([251, 240, 200])('writes to names of %i letters, and refuses longer ones than there can be in words', async (letters) => {
+    await writeFaces(['face']);
+    const name = `${'a'.repeat(letters)}.glb`;
+    await bench.json('pose', 'faces.glb', '--at', 'valence=0.5', '-o', name);
+    expect(bench.list()).toEqual([name, 'faces.glb'].sort());
+    const { status, stderr } = await bench.run('pose', 'faces.glb', '--at', 'valence=0.5', '-o', `a${'a'.repeat(251)}.glb`);
+    expect([status, stderr.includes('too long')]).toEqual([5, true]);
   });
 
   it.each(['out', 'out.bin', 'out.glb.txt', 'out.gltf', 'out.off'])('refuses the name %s', async (name) => {

@@ -41,6 +41,21 @@ describe('parseHandles', () => {
     expect(parse({ handles: [{ vertex: 1, to: [0, 0, 0] }] }).options).toEqual({});
   });
 
+  it.each([1e308, 1e160, 1, 1e-160, 1e-300, 5e-324, -1e308])('takes rotations of numbers of whatever size: %d', (size) => {
+    for (const [x, y, z, w] of [
+      [1, 0, 0, 1],
+      [1, 1, 1, 1],
+      [0, -1, 0, 0],
+      [0, 0, 0, 1],
+    ] as const) {
+      const { targets } = parse({ handles: [{ vertex: 0, to: [0, 0, 0], rotation: [size * x, size * y, size * z, size * w] }] });
+      const length = Math.hypot(x, y, z, w) * Math.sign(size);
+      [x, y, z, w].forEach((part, i) => {
+        expect(targets[3 + i]).toBeCloseTo(part / length, 12);
+      });
+    }
+  });
+
   const good = { vertex: 1, to: [0, 0, 0] };
   it.each([
     ['{"handles": [{"vertex": 1, "to": [NaN, 0, 0]}]}', 'file-invalid', 'no JSON', undefined],

@@ -7,6 +7,8 @@ import { hashPositions } from '../../wasm/ts/hash.ts';
 import { checkGlb } from '../../web/assets/check-glb.ts';
 import { attachBody, attachPoseSpace, readBody, readGlb, readMesh, readPoseSpaces, writeGlb } from '../../web/assets/index.ts';
 
+import { glb } from './support/made-gltf.ts';
+
 const SEED = 20250114;
 const { TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN, POINTS, LINES } = Primitive.Mode;
 
@@ -223,6 +225,18 @@ describe('readMesh', () => {
     const before = readMesh(document).mesh;
     const after = readMesh(await readGlb(await writeGlb(document))).mesh;
     expect(after).toEqual(before);
+  });
+
+  it.each([
+    { type: 'perspective', perspective: { yfov: 1, znear: 0.1 } },
+    { type: 'perspective', perspective: { yfov: 0.5, znear: 2, zfar: 100 } },
+    { type: 'perspective', perspective: { yfov: 0.5, znear: 2, zfar: 7, aspectRatio: 1.5 } },
+    { type: 'orthographic', orthographic: { xmag: 1, ymag: 2, zfar: 50, znear: 0.5 } },
+  ])('leaves cameras as far-sighted as they are: %j', async (camera) => {
+    const json = { asset: { version: '2.0' }, scenes: [{ nodes: [0] }], nodes: [{ camera: 0 }], cameras: [camera] };
+    const written = await writeGlb(await readGlb(glb(json)));
+    expect(checkGlb(written).json.cameras).toEqual([camera]);
+    expect(checkGlb(await writeGlb(await readGlb(written))).json.cameras).toEqual([camera]);
   });
 
   it('names the triangle whose index is out of range, and refuses scenes without triangles', async () => {

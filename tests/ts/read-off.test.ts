@@ -12,6 +12,8 @@ const TRIANGLE = '0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n';
 describe('readOff', () => {
   it.each([
     ['counts on the first line', plain.replace('OFF\n', 'OFF ')],
+    ['a count behind the keyword without a blank', plain.replace('OFF\n', 'OFF')],
+    ['that in lower case', plain.replace('OFF\n', 'off')],
     ['no number of edges', plain.replace('8 6 0', '8 6')],
     ['counts on lines of their own', plain.replace('8 6 0', '8\n6\n0')],
     ['two counts on lines of their own', plain.replace('8 6 0', '8\n6')],

@@ -152,6 +152,28 @@ describe('rows that no division can mend', () => {
     }
   });
 
+  test.each([
+    [3e38, 3e38],
+    [3.4e38, 1, 3.4e38, 2e38],
+    [1e-45, 1e-45],
+    [1e-300, 3e-300],
+    [5e-324, 0],
+  ])('large and small ones are mended as long as floats hold each: %d, %d …', (...row) => {
+    for (const form of FORMS) {
+      const weights = Array.from({ length: 3 * row.length }, (_, i) =>
+        Math.floor(i / row.length) === 1 ? (row[i % row.length] as number) : 1 / row.length,
+      );
+      const told: SkinWarning[] = [];
+      using skin = make(
+        form,
+        { dimension: 2, positions: [1, 2, 3, 4, 5, 6], weights },
+        { onWarning: (warning) => told.push(warning) },
+      );
+      expect(Array.from(skin.deform()).map((x) => Math.round(1e5 * x) / 1e5)).toEqual([1, 2, 3, 4, 5, 6]);
+      expect(told).toMatchObject([{ culprit: { index: 1 }, sum: row.reduce((sum, weight) => sum + weight, 0) }]);
+    }
+  });
+
   test('numbers that are none are refused by the solver, which names the vertex', () => {
     for (const bad of [Number.NaN, Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY, 1e39]) {
       for (const normalize of [true, false]) {

@@ -5,6 +5,7 @@ import { copied, unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { chooseOrigin } from './origin.ts';
+import { placeUnheld } from './placed-vertices.ts';
 import type { BakeShape, Mesh, TetrahedralMesh, Vec3, VoxelVolume } from './types.ts';
 
 interface PreparedShape {
@@ -64,8 +65,13 @@ function prepare(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
     triangles: 'triangles' in shape ? copied(shape.triangles) : new Uint32Array(),
   };
   checkMeshArrays(mesh);
-  if (!('tetrahedra' in shape)) return { mesh, cloud, voxels: undefined, used: undefined };
+  // The array is this function's own.
+  if (!('tetrahedra' in shape)) {
+    if (!cloud) placeUnheld(mesh.positions as Float64Array, mesh.triangles);
+    return { mesh, cloud, voxels: undefined, used: undefined };
+  }
   const solid = { positions: mesh.positions, tetrahedra: unshared(shape.tetrahedra) };
+  placeUnheld(mesh.positions as Float64Array, solid.tetrahedra);
   const triangles = boundaryTriangles(solid);
   return { mesh: { positions: mesh.positions, triangles }, cloud, voxels: undefined, used: verticesOf(solid) };
 }

@@ -39,15 +39,16 @@ export function withSumsOfOne(
   let rows = 0;
   let [worst, worstSum] = [0, 1];
   for (let first = 0; first < weights.length; first += handles) {
-    let [sum, size, held] = [0, 0, 0];
+    let [sum, size, held, largest] = [0, 0, 0, 0];
     for (let j = first; j < first + handles; j++) {
       const weight = weights[j] as number;
       sum += weight;
       size += Math.abs(weight);
+      largest = Math.max(largest, Math.abs(weight));
       if (weight !== 0) held++;
     }
     const off = Math.abs(sum - 1);
-    if (off <= EXACT || !Number.isFinite(Math.fround(size))) continue;
+    if (off <= EXACT || !Number.isFinite(Math.fround(largest))) continue;
     const vertex = first / handles;
     if (!(sum > LEAST_SUM * size)) throw noSum(vertex, sum);
     mended ??= Float64Array.from(weights);

@@ -65,7 +65,8 @@ export interface VoxelVolume {
 
 /**
  * What can be baked. Only what is used counts: vertices that no triangle (of a solid: no tetrahedron) with an extent uses set neither box nor
- * grid, and move as the nearest inside does; triangles without area, and copies of a triangle, leave no trace. Warnings count them.
+ * grid, and move as the nearest inside does; of these, one whose coordinates no float holds (NaN, 1e39) is put in the middle of the others.
+ * Triangles without area, and copies of a triangle, leave no trace. Warnings count them.
  */
 export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
 

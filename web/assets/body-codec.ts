@@ -16,21 +16,17 @@ const VERTEX = 4;
 
 /** The arrays to store, and their hash. `body` was checked by `checkBody`, distances and all. */
 export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays; arraysHash: string }> {
-  const encoder = await loadEncoder();
   const { voxels, centers, grid } = body;
   const order = orderByNearness(body);
   const codes = new Uint16Array(body.distances.length);
   transpose(codes, body.distances, order, 'to-voxels');
   const misses = predictionMisses(codes, { voxels, dimensions: grid.dimensions, centers: centers.length });
   const lanes = toLanes(misses);
+  const copies = { voxels: toRuns(voxels), centers: Uint32Array.from(centers), spheres: Float32Array.from(body.spheres) };
+  // From here on the body's arrays may change.
+  const encoder = await loadEncoder();
   const bytes = new Uint8Array(lanes.buffer);
-  const arrays = {
-    voxels: toRuns(voxels),
-    centers: Uint32Array.from(centers),
-    order,
-    distances: encoder.encodeVertexBufferLevel(bytes, bytes.length / VERTEX, VERTEX, 3, 1),
-    spheres: Float32Array.from(body.spheres),
-  };
+  const arrays = { ...copies, order, distances: encoder.encodeVertexBufferLevel(bytes, bytes.length / VERTEX, VERTEX, 3, 1) };
   return { arrays, arraysHash: hashArrays(arrays, lanes) };
 }
 

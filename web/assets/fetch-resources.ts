@@ -3,7 +3,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { decodeDataUri, isDataUri } from './data-uri.ts';
 import { asObject, type GltfJson } from './gltf-json.ts';
 import type { GltfReadOptions } from './gltf-warnings.ts';
-import { toBytes } from './to-bytes.ts';
+import { ownBytes } from './to-bytes.ts';
 
 /** The objects of a list in the JSON, with their numbers; whether it is a list at all is checked later. */
 export function entriesOf(json: GltfJson, name: string): (readonly [number, GltfJson])[] {
@@ -59,7 +59,8 @@ export class Resources {
     for (const name of plain === uri ? [uri] : [plain, uri]) {
       try {
         const bytes = await this.#resource?.(name, kind);
-        if (bytes) return toBytes(bytes);
+        // The next file may be read into the same memory.
+        if (bytes) return ownBytes(bytes);
       } catch (error) {
         failure ??= error;
       }

@@ -15,9 +15,9 @@ export function fileFormat(bytes: Uint8Array, name: string): FileFormat {
   if (found === 'PLY') return found;
   // What has exactly the length of a binary STL may begin with any other word.
   if (isExact(bytes)) return 'STL';
-  if (/\.gltf$/i.test(name) || looksLikeGltf(bytes)) return 'glTF';
-  const ending = /\.(obj|ply|stl|off)$/i.exec(name)?.[1]?.toUpperCase() as FileFormat | undefined;
-  return found ?? ending ?? 'GLB';
+  if (looksLikeGltf(bytes)) return 'glTF';
+  const ending = /\.(gltf|obj|ply|stl|off)$/i.exec(name)?.[1]?.toUpperCase() as FileFormat | 'GLTF' | undefined;
+  return found ?? (ending === 'GLTF' ? 'glTF' : ending) ?? 'GLB';
 }
 
 /** Three formats have a mark. An OBJ has none: before its first vertex come words that it knows. */
@@ -26,7 +26,7 @@ function formatOfText(head: string): FileFormat | undefined {
   const said = lines.filter((line) => line !== '');
   const [first = ''] = said;
   if (first === 'ply') return 'PLY';
-  if (/^((ST|C|N|4|n)*OFF|off)(\s|$)/.test(first)) return 'OFF';
+  if (/^((ST|C|N|4|n)*OFF|off)(\d|\s|$)/.test(first)) return 'OFF';
   if (/^(solid\b|facet\s+normal\b)/i.test(first) && /\bfacet\b/i.test(head)) return 'STL';
   const other = said.find((line) => !/^(mtllib|usemtl|o|g|s|vn|vt)(\s|$)/.test(line)) ?? '';
   return /^v(\s+[-+]?[.\d]\S*){3}/.test(other) ? 'OBJ' : undefined;

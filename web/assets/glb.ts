@@ -6,7 +6,7 @@ import { createIo, type IoOptions } from './io.ts';
 import { refuseOther } from './look-alikes.ts';
 import { type GlbMesh, meshDocument } from './mesh-document.ts';
 import { openGltf } from './open-gltf.ts';
-import { type FileBytes, toBytes } from './to-bytes.ts';
+import { type FileBytes, ownBytes } from './to-bytes.ts';
 import { type ReadGltfOptions, toDocument } from './to-document.ts';
 import { attachBody } from './write-body.ts';
 
@@ -27,7 +27,7 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
  * ```
  */
 export async function readGlb(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
-  const glb = toBytes(bytes);
+  const glb = ownBytes(bytes);
   if (!isGlb(glb)) throw refuseOther(glb);
   return toDocument(await openGltf(glb, options), options);
 }

@@ -40,8 +40,20 @@ export const HANDLEBODY_EXTENSIONS: readonly (typeof Extension)[] = [
   PoseSpaceExtension,
 ] as unknown as (typeof Extension)[];
 
-/** Writes every transform as it is. glTF-Transform leaves out those within 1e-5 of none, which may be more than a small model's size. */
+/**
+ * Writes every transform as it is. glTF-Transform leaves out those within 1e-5 of none, which may be more than a small model's size; and it
+ * gives a camera that sees without end one, at 100.
+ */
 class ExactIo extends WebIO {
+  override async readJSON(given: JSONDocument): Promise<Document> {
+    const document = await super.readJSON(given);
+    for (const [i, camera] of document.getRoot().listCameras().entries()) {
+      const perspective = given.json.cameras?.[i]?.perspective;
+      if (perspective && perspective.zfar === undefined) camera.setZFar(Number.POSITIVE_INFINITY);
+    }
+    return document;
+  }
+
   override async writeJSON(...given: Parameters<PlatformIO['writeJSON']>): Promise<JSONDocument> {
     const written = await super.writeJSON(...given);
     const [document]: [Document, ...unknown[]] = given;
@@ -57,6 +69,8 @@ class ExactIo extends WebIO {
         if (differs(rotation, [0, 0, 0, 1])) json.rotation = rotation;
         if (differs(scale, [1, 1, 1])) json.scale = scale;
       });
+    for (const { perspective } of written.json.cameras ?? [])
+      if (perspective?.zfar === Number.POSITIVE_INFINITY) delete perspective.zfar;
     return written;
   }
 }

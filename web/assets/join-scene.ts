@@ -3,6 +3,7 @@
  * three.js' objects are both read through here, so that the same model gives the same vertices, to the last bit.
  */
 
+import { placeUnheld } from '../../wasm/ts/placed-vertices.ts';
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
 import { checkReading } from './check-reading.ts';
 import { boxOf, drawnVertices, isCoarse, isLostInScene } from './coarse-floats.ts';
@@ -111,6 +112,7 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
       const { start, count } = ranges[i] as MeshRange;
       gatherUndrawn((mesh.positions as Float32Array).subarray(3 * start, 3 * (start + count)), part);
     });
+  else placeUnheld(mesh.positions, mesh.triangles);
 
   if (unshown.size > 0)
     warn(

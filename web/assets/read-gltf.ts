@@ -1,6 +1,6 @@
 import type { Document } from '@gltf-transform/core';
 import { openGltf } from './open-gltf.ts';
-import { type FileBytes, toBytes } from './to-bytes.ts';
+import { type FileBytes, ownBytes } from './to-bytes.ts';
 import { type ReadGltfOptions, toDocument } from './to-document.ts';
 
 /**
@@ -21,5 +21,5 @@ import { type ReadGltfOptions, toDocument } from './to-document.ts';
  * ```
  */
 export async function readGltf(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
-  return toDocument(await openGltf(toBytes(bytes), options), options);
+  return toDocument(await openGltf(ownBytes(bytes), options), options);
 }

@@ -7,8 +7,8 @@ import { textSource, withoutPadding } from './text-source.ts';
 import { type FileBytes, toBytes } from './to-bytes.ts';
 
 const FORMAT = 'OFF';
-/** The format's name, with letters before it for what a vertex has besides its position. */
-const KEYWORD = /^((?:ST|C|N|4|n)*)OFF$/;
+/** The format's name, with letters before it for what a vertex has besides its position. Some writers part no number from it. */
+const KEYWORD = /^((?:ST|C|N|4|n)*)OFF(\d*)$/;
 
 /**
  * Reads an OFF as text, with or without colors (COFF), normals (NOFF) and texture coordinates (STOFF) of its vertices; the numbers of
@@ -170,13 +170,14 @@ class Rows {
 function readKeyword(rows: Rows, passed: PassedOver): string {
   rows.take(1, 'its first line');
   const first = rows.words[0] as string;
-  const letters = (KEYWORD.exec(first) ?? KEYWORD.exec(first.toUpperCase()))?.[1];
+  const [, letters, count] = KEYWORD.exec(first) ?? KEYWORD.exec(first.toUpperCase()) ?? [];
   if (letters === undefined) {
     if (wholeNumber(first) === undefined) throw rows.fail(`begins with ${quote(first)} and should begin with "OFF"`);
     passed.note('keyword-missing', () => rows.fail('should begin with "OFF"'));
     return '';
   }
-  rows.words.shift();
+  if (count) rows.words[0] = count;
+  else rows.words.shift();
   const isBinary = rows.words[0]?.toUpperCase() === 'BINARY';
   if (!(isBinary || letters.includes('n'))) return letters;
   throw new HandlebodyError('file-unsupported', {

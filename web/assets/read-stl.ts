@@ -150,8 +150,7 @@ function readText(source: TextSource, passed: PassedOver): Corners {
         closeLoop();
         isOpen = word === 'solid';
         // What follows is a name, of whatever words; some files have all on one line.
-        const facet = words.findIndex((each, at) => at > i && each.toLowerCase() === 'facet');
-        i = facet === -1 ? words.length : facet - 1;
+        while (i + 1 < words.length && words[i + 1]?.toLowerCase() !== 'facet') i++;
       } else {
         passed.note('statements-unknown', () => fail(number, `has ${quote(words[i] as string)}, which is no word of STL`));
         break;

@@ -51,15 +51,21 @@ function unitsOf(bytes: Uint8Array): number {
   return units;
 }
 
-/** The text without the zeros and the Ctrl-Z (0x1A) that old programs fill its end with. */
-export function withoutPadding(source: TextSource, passed: PassedOver, format: string): TextSource {
-  const { bytes } = source;
+/** Where a text ends, and how many zeros and Ctrl-Z (0x1A), with which old programs fill its end, are behind it. */
+export function endOfText(bytes: Uint8Array): { readonly end: number; readonly padding: number } {
   let [end, padding] = [bytes.length, 0];
   for (; end > 0; end--) {
     const byte = bytes[end - 1] as number;
     if (byte === 0 || byte === 0x1a) padding++;
     else if (byte !== 32 && !(byte >= 9 && byte <= 13)) break;
   }
+  return { end, padding };
+}
+
+/** The text without its padding, which is told. */
+export function withoutPadding(source: TextSource, passed: PassedOver, format: string): TextSource {
+  const { bytes } = source;
+  const { end, padding } = endOfText(bytes);
   if (padding === 0) return source;
   const text = { ...source, bytes: bytes.subarray(0, end) };
   const line = () => {

@@ -20,6 +20,25 @@ const REMEDIES: Record<string, string> = {
  * Throws 'file-not-bytes' for anything else, naming what it is.
  */
 export function toBytes(given: unknown): Uint8Array {
+  try {
+    return viewOf(given);
+  } catch (cause) {
+    if (!(cause instanceof TypeError)) throw cause;
+    // A view of memory that is gone cannot even be made.
+    throw new HandlebodyError('file-not-bytes', {
+      message: 'The file’s bytes were handed to another thread, and are here no more.',
+      remedy: 'Read the file again, or hand a copy over.',
+      cause,
+    });
+  }
+}
+
+/** The same in memory of its own, for whoever lets others have a turn before all is read. */
+export function ownBytes(given: unknown): Uint8Array {
+  return toBytes(given).slice();
+}
+
+function viewOf(given: unknown): Uint8Array {
   // By its name: a buffer of another window is no instance of this one's class.
   const kind = Object.prototype.toString.call(given).slice(8, -1);
   if (ArrayBuffer.isView(given)) {

@@ -28,7 +28,10 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   const options = bakeOptions(values);
   const output = prepareOutput(theOutput('bake', values), { inputs: [input], force: values.force === true });
 
-  const { document, format } = await readModel(await readInput(input), input, report, { strict: values.strict === true });
+  const { document, format } = await readModel(await readInput(input), input, report, {
+    strict: values.strict === true,
+    baked: true,
+  });
   const morphs = oneOf(values, 'morphs', MORPHS);
   const { mesh } = readMesh(document, { morphs, onWarning: (warning) => report.warn(warning) });
   clock.lap('read');

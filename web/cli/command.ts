@@ -1,3 +1,4 @@
+import { setImmediate } from 'node:timers/promises';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { type Options, parseCommandLine, READS, usageError } from './arguments.ts';
 import { BAKE_OPTIONS, bakeCommand } from './bake.ts';
@@ -5,6 +6,7 @@ import { Clock } from './clock.ts';
 import { DEFORM_OPTIONS, deformCommand } from './deform.ts';
 import { EMBED_OPTIONS, embedCommand } from './embed.ts';
 import { EXIT } from './exit-codes.ts';
+import { reason, unwritable } from './files.ts';
 import { HELP } from './help.ts';
 import { inspectCommand } from './inspect.ts';
 import { packageVersion } from './package.ts';
@@ -29,12 +31,19 @@ export async function runCommand(args: readonly string[]): Promise<number> {
   const interrupt = new AbortController();
   const stop = impatient(() => interrupt.abort());
   process.on('SIGINT', stop).on('SIGTERM', stop);
-  // "handlebody inspect … | head" closes the pipe before all is said, which is no error.
-  for (const stream of [process.stdout, process.stderr]) stream.on('error', ignoreClosedPipe);
+  // Where standard error cannot be written there is nobody to tell it to. The listeners stay: a stream may fail after all was said.
+  if (!process.stdout.listeners('error').includes(noteLoss))
+    for (const [stream, listen] of [[process.stdout, noteLoss] as const, [process.stderr, () => {}] as const])
+      stream.on('error', listen);
+  lost = undefined;
   try {
-    return await dispatch(args, report, interrupt.signal);
-  } catch (error) {
-    return report.error(interrupt.signal.aborted ? interrupted() : error);
+    const status = await dispatch(args, report, interrupt.signal).catch((error: unknown) =>
+      report.error(interrupt.signal.aborted ? interrupted() : error),
+    );
+    await setImmediate();
+    if (lost === undefined || status === EXIT.output) return status;
+    report.leaveStandardOutput();
+    return report.error(unwritable('standard output', reason(lost), lost));
   } finally {
     process.off('SIGINT', stop).off('SIGTERM', stop);
   }
@@ -83,6 +92,10 @@ function interrupted(): HandlebodyError {
   });
 }
 
-function ignoreClosedPipe(error: NodeJS.ErrnoException): void {
-  if (error.code !== 'EPIPE') throw error;
+/** Why standard output did not take what was said. */
+let lost: unknown;
+
+/** "handlebody inspect … | head" closes the pipe before all is said, which is no error. */
+function noteLoss(error: NodeJS.ErrnoException): void {
+  if (error.code !== 'EPIPE') lost ??= error;
 }

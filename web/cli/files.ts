@@ -106,7 +106,8 @@ function replaceFile({ name, file, before }: Output & { readonly file: string },
       throw unwritable(name, reason(cause), cause);
     }
   }
-  const temporary = path.join(path.dirname(file), `.${path.basename(file)}.${randomUUID()}.tmp`);
+  // Not from the file's own name, which may be as long as a name can be.
+  const temporary = path.join(path.dirname(file), `.handlebody-${randomUUID()}.tmp`);
   try {
     const descriptor = openSync(temporary, 'wx');
     try {
@@ -133,7 +134,7 @@ function isSame(a: Stats, file: string): boolean {
   }
 }
 
-function unwritable(name: string, why: string, cause?: unknown): HandlebodyError {
+export function unwritable(name: string, why: string, cause?: unknown): HandlebodyError {
   return new HandlebodyError('output-unwritable', {
     message: `"${name}" cannot be written: ${why}.`,
     remedy: 'Give another place after -o: a folder that is there and that you may write to.',
@@ -153,6 +154,7 @@ export function reason(cause: unknown): string {
     EROFS: 'its file system is read-only',
     ENOSPC: 'the disk is full',
     EFBIG: 'it is too large',
+    ENAMETOOLONG: 'its name is too long',
     ELOOP: 'its links lead round in a circle',
     EPIPE: 'its reader is gone',
     ERR_FS_FILE_TOO_LARGE: 'it has more than 2 GiB',

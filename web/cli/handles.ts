@@ -8,6 +8,7 @@
  */
 import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Handle, Vec3 } from '../../wasm/ts/types.ts';
+import { decodeText } from '../assets/decode-text.ts';
 
 interface HandlesFile {
   readonly handles: readonly Handle[];
@@ -80,21 +81,22 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
   const to = numbers('to', 3, 'target-not-finite');
   const rotation = 'rotation' in entry ? numbers('rotation', 4, 'target-not-finite') : [0, 0, 0, 1];
   const scale = 'scale' in entry ? numbers('scale', 3, 'target-not-finite') : [1, 1, 1];
-  const length = Math.hypot(...rotation);
-  if (!(length > 0 && length < Number.POSITIVE_INFINITY))
+  // Divided first, so that no square overflows or vanishes.
+  const largest = Math.max(...rotation.map(Math.abs));
+  const direction = rotation.map((x) => x / largest);
+  const length = Math.hypot(...direction);
+  if (largest === 0)
     throw fail('has a rotation of no length', { remedy: 'Give a quaternion x, y, z, w; no rotation is [0, 0, 0, 1].' });
   const turns = 'rotation' in entry || 'scale' in entry;
   return {
     handle: turns ? { ...where, kind: 'rotation' } : where,
-    target: [...to, ...rotation.map((x) => x / length), ...scale],
+    target: [...to, ...direction.map((x) => x / length), ...scale],
   };
 }
 
 function parseJson(bytes: Uint8Array): unknown {
-  let text: string;
   try {
-    text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
-    return JSON.parse(text);
+    return JSON.parse(decodeText(bytes));
   } catch (cause) {
     throw new HandlebodyError('file-invalid', {
       message: `It is no JSON: ${cause instanceof Error ? cause.message : String(cause)}.`,

@@ -17,7 +17,11 @@ interface ModelOptions {
   readonly pictures?: 'needed' | 'optional';
   /** Refuses what readers of OBJ, PLY, STL and OFF pass over otherwise. */
   readonly strict?: boolean;
+  /** Whether the model is baked next: of flat and doubled triangles the bake tells what it makes of them. */
+  readonly baked?: boolean;
 }
+
+const TOLD_BY_BAKE: readonly string[] = ['triangles-flat', 'triangles-doubled'];
 
 /** Readers of the formats that hold a mesh and nothing else. */
 const MESH_READERS = { OBJ: readObj, PLY: readPly, STL: readStl, OFF: readOff };
@@ -30,13 +34,14 @@ export async function readModel(
   bytes: Uint8Array,
   name: string,
   report?: Report,
-  { pictures = 'needed', strict = false }: ModelOptions = {},
+  { pictures = 'needed', strict = false, baked = false }: ModelOptions = {},
 ): Promise<Model> {
   const format = fileFormat(bytes, name);
   try {
     if (format !== 'GLB' && format !== 'glTF') {
       const mesh = MESH_READERS[format](bytes, { strict });
-      for (const { code, message, remedy } of mesh.warnings) report?.warn({ code, message, remedy });
+      for (const { code, message, remedy } of mesh.warnings)
+        if (!(baked && TOLD_BY_BAKE.includes(code))) report?.warn({ code, message, remedy });
       return { document: meshDocument(mesh, path.basename(name, path.extname(name))), format };
     }
     const onMissingPicture = pictures === 'needed' ? undefined : (error: HandlebodyError) => report?.warn(error);

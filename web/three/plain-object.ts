@@ -33,6 +33,8 @@ export function plainObject(object: Object3D, known?: Vec3): ObjectMesh | undefi
     })),
     { origin: known },
   );
+  // Vertices that are no numbers, which nothing may use, want a place.
+  if (!(mesh.positions as Float32Array).every(Number.isFinite)) return undefined;
   const { origin } = mesh;
   const parts = found.map((part, i) => {
     const { start, count } = ranges[i] as MeshRange;

@@ -21,11 +21,11 @@ void take(CountedMesh& mesh, const ConstPoints& positions, const ConstTriangles&
   }
   Points kept(std::ssize(mesh.stored), 3);
   for (std::size_t v = 0; v < mesh.stored.size(); ++v) kept.row(static_cast<Index>(v)) = positions.row(mesh.stored[v]);
-  mesh.weld = weld_vertices(kept);
+  mesh.triangles = triangles.unaryExpr([&](std::uint32_t v) { return number[v]; });
+  mesh.weld = weld_mesh(kept, mesh.triangles);
   mesh.positions.resize(std::ssize(mesh.weld.unique), 3);
   for (std::size_t v = 0; v < mesh.weld.unique.size(); ++v)
     mesh.positions.row(static_cast<Index>(v)) = kept.row(mesh.weld.unique[v]);
-  mesh.triangles = triangles.unaryExpr([&](std::uint32_t v) { return number[v]; });
   mesh.triangles = weld_triangles(mesh.weld, mesh.triangles);
 }
 

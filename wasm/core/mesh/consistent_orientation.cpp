@@ -8,7 +8,6 @@
 
 #include "core/mesh/triangle_sides.hpp"
 #include "core/mesh/triangle_tree.hpp"
-#include "core/mesh/weld.hpp"
 #include "core/numerics/indices.hpp"
 
 namespace handlebody {
@@ -20,10 +19,6 @@ constexpr double folded = 0.866;  // the cosine of 30°
 
 /** Places from which it is looked whether a part lies in another: of one part, and of all together. */
 constexpr Index samples_of_part = 32, samples_of_all = 65536;
-
-/** Coordinates this close, in diagonals, are one for telling neighbors: the ends of a lathe's seam, or of a mirrored half, which
- *  differ by a rounding to floats. */
-constexpr double same_place = 1e-7;
 
 Index count_open(const TriangleSides& sides) {
   Index open = 0;
@@ -123,23 +118,6 @@ Parts::Parts(const Points& positions, const Triangles& triangles, const Triangle
   });
 }
 
-/** The triangles with one vertex for those in nearly one place, the first of them. Along each axis a coordinate becomes that of the
- * lowest in a row without gaps. */
-Triangles without_seams(const Points& positions, const Triangles& triangles) {
-  const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
-  const double gap = same_place * (high - low).norm();
-  Points snapped = positions;
-  for (Index axis = 0; axis < 3; ++axis) {
-    const Indices order = sorted_indices(static_cast<std::size_t>(positions.rows()), [&](std::uint32_t a, std::uint32_t b) {
-      return positions(a, axis) < positions(b, axis) || (positions(a, axis) == positions(b, axis) && a < b);
-    });
-    for (std::size_t k = 1; k < order.size(); ++k)
-      if (positions(order[k], axis) - positions(order[k - 1], axis) <= gap) snapped(order[k], axis) = snapped(order[k - 1], axis);
-  }
-  const Weld weld = weld_vertices(snapped);
-  return triangles.unaryExpr([&](std::uint32_t v) { return weld.unique[weld.to_unique[v]]; });
-}
-
 /** Whether just outside of a closed part, everywhere, is the inside of something else. `outside` is 1 for one that faces outward,
  * −1 for one that faces inward; places are at most `samples`. */
 bool is_nested(const Points& positions, const Triangles& triangles, const TriangleTree& tree, const std::uint32_t* begin,
@@ -163,9 +141,7 @@ Orientation orient_consistently(const Points& positions, Triangles& triangles) {
   const TriangleSides as_given(triangles, positions.rows());
   Orientation result{false, false, 0, count_open(as_given)};
   result.closed = result.open_edges == 0;
-  const Triangles joined = result.closed ? Triangles(0, 3) : without_seams(positions, triangles);
-  const Parts parts =
-      result.closed ? Parts(positions, triangles, as_given) : Parts(positions, joined, TriangleSides(joined, positions.rows()));
+  const Parts parts(positions, triangles, as_given);
 
   std::vector<std::size_t> inward, outward;  // closed parts that agree as they are
   std::vector<std::uint8_t> turn(static_cast<std::size_t>(triangles.rows()));

@@ -12,8 +12,7 @@ struct Orientation {
   Index open_edges;  // edges that are still unbalanced afterwards
 };
 
-/** Turns triangles (welded indices) round so that neighbors agree. Parts are connected by edges of two triangles, also where
- *  these are apart by a rounding to floats. A part that does
+/** Turns triangles (welded indices) round so that neighbors agree. Parts are connected by edges of two triangles. A part that does
  * not agree with itself is made to: then it faces outward if it is closed, so that cavities fill up, and as the larger share of its
  * area did if it is open. A closed part that agrees and faces inward stays a cavity where it lies in another part, and is turned
  * where it does not. A mesh that is closed, and inside out as a whole, stays as it is. Triangles at edges of more than two, and

@@ -11,7 +11,6 @@ namespace handlebody {
 
 namespace {
 
-constexpr double of_diagonal = 1e-6, of_edge = 1e-3;
 constexpr double farthest = 1e60;  // as check_simplex_mesh() has it
 
 void count(LeftOut& kind, Index which) {
@@ -31,39 +30,10 @@ Points places_of(const SimplexMesh& stored, Index first_used) {
   return places;
 }
 
-/** The diagonal of the box of all that simplices use. */
-double diagonal_of(const Points& places, const std::vector<char>& used) {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (Index v = 0; v < places.rows(); ++v) {
-    if (!used[v]) continue;
-    low = low.cwiseMin(places.row(v).transpose());
-    high = high.cwiseMax(places.row(v).transpose());
-  }
-  return (high - low).norm();
-}
-
-/** What rounding may do to the corners of a simplex with this longest edge. */
-double rounding(double longest, double diagonal) {
-  return std::min(of_edge * longest, of_diagonal * diagonal);
-}
-
-/** How near another vertex must be to be the same. */
-Vector reach_of(const SimplexMesh& stored, double diagonal) {
-  Vector reach = Vector::Zero(stored.positions.rows());
-  for (Index s = 0; s < stored.simplices.rows(); ++s) {
-    const double edge = rounding(longest_edge(stored, s), diagonal);
-    for (Index k = 0; k < stored.simplices.cols(); ++k) {
-      double& own = reach[stored.simplices(s, k)];
-      own = std::max(own, edge);
-    }
-  }
-  return reach;
-}
-
 /** The places, each with its vertices. A vertex without a place of its own shares none. */
-Weld join_places(const SimplexMesh& stored, const Points& places, Index first_used, double diagonal, bool join) {
+Weld join_places(const SimplexMesh& stored, const Points& places, Index first_used, bool join) {
   Weld found;
-  if (join) found = weld_vertices(places, reach_of(stored, diagonal));
+  if (join) found = weld_mesh(places, stored.simplices);
   Weld result;
   Indices number(found.unique.size(), no_index);
   for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(places.rows()); ++v) {
@@ -188,8 +158,7 @@ Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& 
   const std::vector<char> used = used_vertices(stored);
   const auto first_used = static_cast<Index>(std::find(used.begin(), used.end(), 1) - used.begin());
   const Points places = places_of(stored, first_used);
-  const double diagonal = diagonal_of(places, used);
-  const Weld weld = join_places(stored, places, first_used, diagonal, options.weld);
+  const Weld weld = join_places(stored, places, first_used, options.weld);
 
   SimplexMesh welded{Matrix(std::ssize(weld.unique), stored.positions.cols()), stored.simplices};
   for (Index u = 0; u < welded.positions.rows(); ++u)
@@ -202,7 +171,7 @@ Result<SoundMesh> sound_mesh(const SimplexMesh& stored, const SoundMeshOptions& 
   const bool solid = stored.simplices.cols() == 4;
   const char* const one = solid ? "Tetrahedron " : "Triangle ";
   const hb_culprit culprit = solid ? HB_CULPRIT_TETRAHEDRON : HB_CULPRIT_TRIANGLE;
-  const std::vector<char> is_thin = flat_simplices(welded, diagonal);
+  const std::vector<char> is_thin = flat_simplices(welded, used_diagonal(places, stored.simplices));
   const Indices alike = first_alike(welded.simplices);
   Indices kept;
   std::vector<char> sound(weld.unique.size(), 0), flat(weld.unique.size(), 0);

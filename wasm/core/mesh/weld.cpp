@@ -79,6 +79,37 @@ Weld weld_vertices(const ConstPoints& positions, const Vector& reach) {
   return number_places(first);
 }
 
+double rounding(double longest_edge, double diagonal) {
+  return std::min(1e-3 * longest_edge, 1e-6 * diagonal);
+}
+
+double used_diagonal(const ConstPoints& positions, const ConstSimplices& simplices) {
+  if (simplices.size() == 0) return 0;
+  Vector3 low = positions.row(simplices(0, 0)), high = low;
+  for (Index s = 0; s < simplices.rows(); ++s)
+    for (Index k = 0; k < simplices.cols(); ++k) {
+      low = low.cwiseMin(positions.row(simplices(s, k)).transpose());
+      high = high.cwiseMax(positions.row(simplices(s, k)).transpose());
+    }
+  return (high - low).norm();
+}
+
+Weld weld_mesh(const ConstPoints& positions, const ConstSimplices& simplices) {
+  const double diagonal = used_diagonal(positions, simplices);
+  Vector reach = Vector::Zero(positions.rows());
+  for (Index s = 0; s < simplices.rows(); ++s) {
+    double longest = 0;
+    for (Index k = 0; k < simplices.cols(); ++k)
+      for (Index l = 0; l < k; ++l)
+        longest = std::max(longest, (positions.row(simplices(s, k)) - positions.row(simplices(s, l))).norm());
+    for (Index k = 0; k < simplices.cols(); ++k) {
+      double& own = reach[simplices(s, k)];
+      own = std::max(own, rounding(longest, diagonal));
+    }
+  }
+  return weld_vertices(positions, reach);
+}
+
 Triangles weld_triangles(const Weld& weld, const ConstTriangles& triangles) {
   return triangles.unaryExpr([&](std::uint32_t v) { return weld.to_unique[v]; });
 }

@@ -21,6 +21,20 @@ Weld weld_vertices(const ConstPoints& positions);
  * near the next are one. The result does not depend on the order of vertices, but for their numbers. */
 Weld weld_vertices(const ConstPoints& positions, const Vector& reach);
 
+/** How far apart rounding may put two corners in one place of a mesh with this diagonal, where a simplex with this longest edge is:
+ * a millionth of the one, and a thousandth of the other. */
+double rounding(double longest_edge, double diagonal);
+
+/** m×3 or m×4 vertex numbers: triangles or tetrahedra. */
+using ConstSimplices = Eigen::Ref<const Eigen::Matrix<std::uint32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+/** The diagonal of the box of all that simplices use; 0 where there are none. */
+double used_diagonal(const ConstPoints& positions, const ConstSimplices& simplices);
+
+/** Finds the vertices that are one for all that goes along simplices: at the same position exactly, or so near that only rounding()
+ * can have parted them, as the two ends of a lathe's seam. Positions must be finite, and indices in range. */
+Weld weld_mesh(const ConstPoints& positions, const ConstSimplices& simplices);
+
 /** `triangles` with welded indices. */
 Triangles weld_triangles(const Weld& weld, const ConstTriangles& triangles);
 
