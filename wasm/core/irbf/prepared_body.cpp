@@ -79,7 +79,7 @@ Result<Done> PreparedBody::prepare_spheres() {
 }
 
 Result<Done> PreparedBody::prepare_vertices() {
-  weld = weld_mesh(body.positions, body.triangles);
+  weld = weld_vertices(body.positions);
   triangles = weld_triangles(weld, body.triangles);
   stored = body.positions.cast<float>();
   const Points solver = body.solver_positions();
