@@ -1,5 +1,5 @@
 /** The three.js side: GLTFLoader with the plugin, meshes from object trees, and deformed positions on their way back. */
-import { type Document, Primitive, Document as Scene } from '@gltf-transform/core';
+import { type Document, Primitive, Document as Scene, type Mesh as Target } from '@gltf-transform/core';
 import {
   BoxGeometry,
   BufferAttribute,
@@ -92,6 +92,40 @@ describe('handlebodyPlugin', () => {
     const { body: loaded, poseSpaces } = handlebodyData(await load(await writeGlb(document)));
     expect(loaded).toEqual(body);
     expect(poseSpaces).toEqual([]);
+  });
+
+  it('finds pose spaces in every scene, and the body in the one that is shown', async () => {
+    const document = makeScene();
+    const [face] = document
+      .getRoot()
+      .listMeshes()
+      .filter((mesh) => mesh.getName() === 'face') as [Target];
+    attachPoseSpace(document, face, {
+      version: 1,
+      dimensions: [{ name: 'valence', min: -1, max: 1 }],
+      examples: [{ name: 'smile', at: [1], target: 0 }],
+    });
+    const first = document.createScene('first').addChild(document.createNode('else').setMesh(face.clone()));
+    const shown = document.getRoot().getDefaultScene();
+    for (const scene of [first, shown]) {
+      document.getRoot().setDefaultScene(scene);
+      const gltf = await load(await writeGlb(document));
+      const { poseSpaces } = handlebodyData(gltf);
+      // Two primitives at each of the two nodes.
+      expect(poseSpaces.map(({ meshes }) => meshes.length)).toEqual([2, 2]);
+      const roots = new Set(poseSpaces.flatMap(({ meshes }) => meshes.map(rootOf)));
+      expect(roots).toEqual(new Set(gltf.scenes));
+      expect(hashPositions(meshFromObject(gltf.scene).mesh.positions)).toBe(hashPositions(readMesh(document).mesh.positions));
+    }
+  });
+
+  it('loads a file without scenes, of which nothing is shown', async () => {
+    const document = makeScene();
+    for (const scene of document.getRoot().listScenes()) scene.dispose();
+    const gltf = await load(await writeGlb(document));
+    expect(gltf.scene).toBeUndefined();
+    expect(handlebodyData(gltf)).toEqual({ poseSpaces: [] });
+    expect(() => readMesh(document)).toThrow(expect.objectContaining({ code: 'mesh-no-triangles' }));
   });
 
   it('numbers vertices and triangles as glTF-Transform does, to the last bit', async () => {
@@ -310,3 +344,7 @@ describe('DeformedGeometry', () => {
     expect(flat[2]?.mesh.geometry).toBe(before);
   });
 });
+
+function rootOf(object: Object3D): Object3D {
+  return object.parent ? rootOf(object.parent) : object;
+}

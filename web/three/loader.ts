@@ -14,6 +14,7 @@ import { decodeBody } from '../assets/body-codec.ts';
 import { Fault, inWords } from '../assets/fault.ts';
 import type { PoseSpaceData } from '../assets/pose-space-schema.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, HANDLEBODY_POSE_SPACE, parseStoredHeader, type StoredArrays } from '../assets/schema.ts';
+import { isMesh } from './object-part.ts';
 import { readObject } from './read-object.ts';
 
 /** A pose space, and the meshes of the scene whose `morphTargetInfluences` its weights are for. */
@@ -72,7 +73,7 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
   async afterRoot(gltf: GLTF): Promise<void> {
     // A file without scenes shows nothing, and has no `gltf.scene`.
     const body = gltf.scene && (await inWords(() => this.#readBody(gltf.scene)));
-    const poseSpaces = await inWords(() => this.#readPoseSpaces(gltf));
+    const poseSpaces = await inWords(() => this.#readPoseSpaces());
     gltf.userData.handlebody = { ...(body && { body }), poseSpaces } satisfies HandlebodyData;
   }
 
@@ -95,25 +96,29 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
     }
   }
 
-  async #readPoseSpaces(gltf: GLTF): Promise<LoadedPoseSpace[]> {
-    const definitions = (this.#parser.json.meshes ?? []) as {
-      extensions?: Record<string, unknown>;
-      primitives: { targets?: unknown[] }[];
-    }[];
-    if (!definitions.some(({ extensions }) => extensions?.[HANDLEBODY_POSE_SPACE])) return [];
+  async #readPoseSpaces(): Promise<LoadedPoseSpace[]> {
+    const { meshes = [], nodes = [] } = this.#parser.json as PosedJson;
+    if (!meshes.some(({ extensions }) => extensions?.[HANDLEBODY_POSE_SPACE])) return [];
     const { parsePoseSpace } = await import('../assets/pose-space-schema.ts');
-    return definitions.flatMap(({ extensions, primitives }, index) => {
+    // The loader's own list of what came of what knows one scene alone.
+    const objects: Object3D[] = await this.#parser.getDependencies('node');
+    return meshes.flatMap(({ extensions, primitives }, index) => {
       const json = extensions?.[HANDLEBODY_POSE_SPACE];
       if (!json) return [];
       const space = parsePoseSpace(json, { targetCount: primitives[0]?.targets?.length ?? 0 });
-      const meshes: ThreeMesh[] = [];
-      for (const scene of gltf.scenes) {
-        scene.traverse((object) => {
-          const isMesh = (object as Partial<ThreeMesh>).isMesh === true;
-          if (isMesh && this.#parser.associations.get(object)?.meshes === index) meshes.push(object as ThreeMesh);
-        });
-      }
-      return [{ ...space, meshes }];
+      const users = objects.filter((_, i) => nodes[i]?.mesh === index);
+      return [{ ...space, meshes: users.flatMap((node) => meshesOf(node, objects)) }];
     });
   }
+}
+
+interface PosedJson {
+  readonly meshes?: { readonly extensions?: Record<string, unknown>; readonly primitives: { readonly targets?: unknown[] }[] }[];
+  readonly nodes?: { readonly mesh?: number }[];
+}
+
+/** A node's own meshes, one for each primitive, and not those of the nodes below it. */
+function meshesOf(object: Object3D, nodes: readonly Object3D[]): ThreeMesh[] {
+  const below = object.children.filter((child) => !nodes.includes(child)).flatMap((child) => meshesOf(child, nodes));
+  return isMesh(object) ? [object, ...below] : below;
 }
