@@ -26,7 +26,7 @@ const includes: Plugin = {
   },
 };
 
-/** Vite's own also waits for the style sheets of what is imported lazily, of which there are none: this one fetches the scripts together. */
+/** Vite's own also waits for the style sheets of what is imported lazily, which every page has from the first: this one fetches the scripts. */
 const preloads: Plugin = {
   name: 'preloads',
   enforce: 'pre',
@@ -38,9 +38,9 @@ const asked = new Set();
 export const __vitePreload = (load, files = [], from) => {
   for (const file of files) {
     const { href } = new URL(file, from);
-    if (asked.has(href)) continue;
+    if (asked.has(href) || href.endsWith('.css')) continue;
     asked.add(href);
-    document.head.append(Object.assign(document.createElement('link'), { rel: 'modulepreload', href }));
+    document.head.append(Object.assign(document.createElement('link'), { rel: 'modulepreload', crossOrigin: '', href }));
   }
   return load();
 };`;

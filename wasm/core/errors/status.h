@@ -61,10 +61,8 @@ typedef enum hb_warning_code {
   HB_WARNING_LIMBS_MERGED = 3,      /* the grid is too coarse to separate parts: distances leap across a gap */
   HB_WARNING_PART_OUTSIDE = 4,      /* vertices far from all voxels inside: parts without volume, or thinner than a voxel */
   HB_WARNING_ORIENTATION_MIXED = 5, /* neighboring triangles face opposite ways */
-  HB_WARNING_SURFACE_FILLED =
-      6, /* triangles do not tell inside from outside: what a shell of voxels along them encloses was used */
-  HB_WARNING_VERTICES_UNUSED =
-      7, /* vertices that no triangle with an area uses: they set neither box nor grid, and move with the nearest inside */
+  HB_WARNING_SURFACE_FILLED = 6,    /* triangles do not tell inside from outside: what a shell of voxels encloses was used */
+  HB_WARNING_VERTICES_UNUSED = 7,   /* vertices that no triangle with an area uses: they set neither box nor grid */
   HB_WARNING_TRIANGLES_FLAT = 8,    /* triangles without area, which are no surface: passed over */
   HB_WARNING_TRIANGLES_DOUBLED = 9, /* copies of a triangle, as it is or turned round: passed over */
   HB_WARNING_VOXELS_FEW = 10        /* the inside is a handful of voxels: too few to measure distances by */
