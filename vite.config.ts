@@ -3,7 +3,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { MODEL, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
+import { PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -26,27 +26,15 @@ const includes: Plugin = {
   },
 };
 
-/** Vite's own also waits for the style sheets of what is imported lazily, which every page has from the first: this one fetches the scripts. */
-const preloads: Plugin = {
-  name: 'preloads',
+/** Vite's own waits for style sheets of what is imported lazily, and asks for its scripts twice: every page has its styles from the first. */
+const withoutPreloads: Plugin = {
+  name: 'without-preloads',
   enforce: 'pre',
-  load: (id) => (id === '\0vite/preload-helper.js' ? PRELOAD : undefined),
+  load: (id) => (id === '\0vite/preload-helper.js' ? 'export const __vitePreload = (load) => load();' : undefined),
 };
 
-const PRELOAD = `
-const asked = new Set();
-export const __vitePreload = (load, files = [], from) => {
-  for (const file of files) {
-    const { href } = new URL(file, from);
-    if (asked.has(href) || href.endsWith('.css')) continue;
-    asked.add(href);
-    document.head.append(Object.assign(document.createElement('link'), { rel: 'modulepreload', crossOrigin: '', href }));
-  }
-  return load();
-};`;
-
 export default defineConfig({
-  plugins: [includes, preloads],
+  plugins: [includes, withoutPreloads],
   root: web,
   publicDir: '../public',
   base: './',
@@ -65,7 +53,7 @@ export default defineConfig({
       input: Object.fromEntries(pages),
       output: {
         codeSplitting: {
-          groups: [THREE, PAGE, MODEL, VIEW],
+          groups: [THREE, PAGE, VIEW],
         },
       },
     },
