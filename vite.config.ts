@@ -3,7 +3,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
+import { MODEL, PAGE, THREE, VIEW } from './scripts/lib/chunks.mjs';
 
 const web = fileURLToPath(new URL('./web', import.meta.url));
 const files = existsSync(web)
@@ -53,7 +53,7 @@ export default defineConfig({
       input: Object.fromEntries(pages),
       output: {
         codeSplitting: {
-          groups: [THREE, PAGE, VIEW],
+          groups: [THREE, PAGE, MODEL, VIEW],
         },
       },
     },

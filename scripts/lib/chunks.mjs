@@ -12,10 +12,11 @@ export const MODEL = {
 /** What a 3D view consists of. */
 export const VIEW = { name: 'view', test: /web[\\/](stage[\\/]|three[\\/]handles\.)/ };
 
-/** What nearly every page needs, and with it what reading models and the solver have alike: neither brings the other along. */
+/** What nearly every page needs, and with it what reading models and the solver have alike: neither brings the other along. What
+ * imports lazily wants Vite's helper for it: in the chunk of some other part it would bring that to every page. */
 export const PAGE = {
   name: 'page',
-  test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\.|wasm[\\/]ts[\\/](copied|errors|hash|origin)\./,
+  test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\.|wasm[\\/]ts[\\/](copied|errors|hash|origin)\.|vite[\\/]preload-helper/,
 };
 
 /** For pages with elements, whose runtime is told apart by the size budget. */
