@@ -15,7 +15,6 @@ import { GLTFExporter, type GLTFExporterOptions } from 'three/addons/exporters/G
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { checkGlb, readBody, readGlb, readPoseSpaces } from '../../web/assets/index.ts';
 import {
@@ -26,28 +25,14 @@ import {
   meshFromObject,
 } from '../../web/three/index.ts';
 import { offerFileReader } from './support/file-reader.ts';
+import { noisyBody } from './support/noisy-body.ts';
 import { crossed, skinned } from './support/objects.ts';
 import { random } from './support/scattered.ts';
 
 beforeAll(offerFileReader);
 
-/** A body with noise for distances: files do not care. */
 function bodyOf(object: Object3D): BodyData {
-  const { mesh } = meshFromObject(object);
-  return {
-    version: 1,
-    distance: 'fast-marching',
-    mesh,
-    positionsHash: hashPositions(mesh.positions),
-    normalization: { center: [0.1, 0.2, 0.3], diagonal: 7 },
-    grid: { origin: [-0.5, -0.5, -0.5], spacing: 0.1, dimensions: [10, 10, 10] },
-    voxels: Uint32Array.from({ length: 77 }, (_, i) => i * 7),
-    centers: Uint32Array.of(3, 1, 15),
-    distances: Uint16Array.from({ length: 3 * 77 }, (_, i) => i * 283),
-    distanceScale: 1e-5,
-    spheres: Float64Array.of(0, 0, 0, 0.5, 0.25, 0.25, 0.25, 0.125),
-    handles: [{ name: 'Nose', vertex: 2 }],
-  };
+  return { ...noisyBody(meshFromObject(object).mesh), handles: [{ name: 'Nose', vertex: 2 }] };
 }
 
 async function exported(object: Object3D, data: ExportedData, options: GLTFExporterOptions = {}): Promise<ArrayBuffer> {

@@ -21,6 +21,7 @@ import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { attachBody, attachPoseSpace, type BodyProperty, HANDLEBODY_BODY, readMesh, writeGlb } from '../../web/assets/index.ts';
 import { DeformedGeometry, handlebodyData, handlebodyPlugin, meshFromObject } from '../../web/three/index.ts';
+import { noisyBody } from './support/noisy-body.ts';
 
 /** Three nodes, one below another, of 2, 1 and 1 primitives, the last one quantized; with points between and morph targets. */
 function makeScene(): Document {
@@ -62,22 +63,7 @@ function makeScene(): Document {
   return document;
 }
 
-function makeBody(document: Document): BodyData {
-  const { mesh } = readMesh(document);
-  return {
-    version: 1,
-    distance: 'fast-marching',
-    mesh,
-    positionsHash: hashPositions(mesh.positions),
-    normalization: { center: [0.1, 0.2, 0.3], diagonal: 7 },
-    grid: { origin: [-0.5, -0.5, -0.5], spacing: 0.1, dimensions: [10, 10, 10] },
-    voxels: Uint32Array.from({ length: 77 }, (_, i) => i * 7),
-    centers: Uint32Array.of(3, 1, 15),
-    distances: Uint16Array.from({ length: 3 * 77 }, (_, i) => i * 283),
-    distanceScale: 1e-5,
-    spheres: Float64Array.of(0, 0, 0, 0.5, 0.25, 0.25, 0.25, 0.125),
-  };
-}
+const makeBody = (document: Document): BodyData => noisyBody(readMesh(document).mesh);
 
 async function load(bytes: Uint8Array): Promise<GLTF> {
   const loader = new GLTFLoader().register(handlebodyPlugin);
