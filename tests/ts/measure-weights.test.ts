@@ -189,7 +189,7 @@ describe('measures of weights', () => {
           }
         },
       ),
-      { seed: 1144, numRuns: 1000 },
+      { seed: 1144, numRuns: 1500 },
     );
     expect(Math.min(seen.measured, seen.refused)).toBeGreaterThan(50);
   });

@@ -146,10 +146,10 @@ describe('bad input is named', () => {
   const data = { dimension: 2, points: [0, 0, 1, 0, 0, 1, 1, 1, 2, 3, 4, 1, 3, 3], values: [1, 5, -2, 4, 0, 1, 2] };
   const cases: [string, Partial<MovingLeastSquaresOptions>, string, RegExp][] = [
     ['an unknown weight', { weight: 'toString' as 'gaussian' }, 'invalid-option', /"toString"/],
-    ['a degree of 3', { degree: 3 as 2 }, 'invalid-option', /degree 3/],
-    ['a power of 0', { power: 0 }, 'invalid-option', /power 0/],
-    ['a negative epsilon', { epsilon: -1 }, 'invalid-option', /Epsilon is -1/],
-    ['a width of 0', { weight: 'gaussian', width: 0 }, 'invalid-option', /width 0/],
+    ['a degree of 3', { degree: 3 as 2 }, 'invalid-option', /degree" is 3/],
+    ['a power of 0', { power: 0 }, 'invalid-option', /power" is 0/],
+    ['a negative epsilon', { epsilon: -1 }, 'invalid-option', /epsilon" is -1/],
+    ['a width of 0', { weight: 'gaussian', width: 0 }, 'invalid-option', /width" is 0/],
     ['an infinite width', { weight: 'gaussian', width: Number.POSITIVE_INFINITY }, 'invalid-option', /width/],
     ['too few points', { points: [0, 0, 1, 1], values: [1, 2] }, 'points-too-few', /2 points do not determine a linear function/],
     ['points on one line', { points: [0, 0, 1, 1, 2, 2], values: [1, 2, 3] }, 'points-degenerate', /on one line/],

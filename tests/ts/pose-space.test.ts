@@ -190,16 +190,16 @@ describe('errors name the culprit and a remedy', () => {
       { examples: changed(5, { shape: [0, 0, Number.NaN, 0] }) },
       'example-not-finite',
       5,
-      /Number 2 of the shape of "sad"/,
+      /shape\[2\]" \(example 5, "sad"\) is NaN/,
     ],
     [
       'a place with infinity',
       { examples: changed(1, { at: [1, 1 / 0] }) },
       'example-not-finite',
       1,
-      /Number 1 of the place of "happy"/,
+      /at\[1\]" \(example 1, "happy"\) is Infinity/,
     ],
-    ['a place of the wrong length', { examples: changed(1, { at: [1] }) }, 'invalid-shape', 1, /"happy" has 1 coordinates/],
+    ['a place of the wrong length', { examples: changed(1, { at: [1] }) }, 'invalid-shape', 1, /"happy" has 1 numbers/],
     [
       'two shapes at one place',
       { examples: changed(3, { at: [0.56 + 1e-12, -0.31] }) },
@@ -216,7 +216,7 @@ describe('errors name the culprit and a remedy', () => {
     ],
     ['an unknown kernel', { kernel: 'toString' as 'linear' }, 'invalid-option', undefined, /"toString"/],
     ['an unknown method', { method: 'magic' as 'cardinal' }, 'invalid-option', undefined, /"magic"/],
-    ['a width of 0', { width: 0 }, 'invalid-option', undefined, /width 0/],
+    ['a width of 0', { width: 0 }, 'invalid-option', undefined, /"width" is 0/],
     ['a tail too low', { kernel: 'thin-plate', degree: 0 }, 'invalid-option', undefined, /degree 1/],
     ['a kernel that cannot be normalized', { method: 'normalized', kernel: 'linear' }, 'invalid-option', undefined, /normalized/],
   ];

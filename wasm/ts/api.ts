@@ -1,5 +1,5 @@
 /** What the entry modules of the whole solver export besides their `load`. */
-export { BAKE_DEFAULTS } from './bake.ts';
+export { BAKE_DEFAULTS } from './bake-options.ts';
 export {
   BIHARMONIC_WEIGHTS_DEFAULTS,
   BiharmonicWeights,

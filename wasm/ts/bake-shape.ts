@@ -1,19 +1,25 @@
 /** Turns everything that can be baked into what the solver bakes: a mesh to show and deform, and what is known of its inside. */
 import type { Exports } from './abi.generated.ts';
-import { checkMeshArrays } from './check-mesh.ts';
+import { checkNames, numbers, positive, row, whole } from './arguments.ts';
 import { copied, unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
+import { meshLike, readCorners, readOrigin, readPositions } from './mesh-arrays.ts';
 import { chooseOrigin } from './origin.ts';
 import { placeUnheld } from './placed-vertices.ts';
-import type { BakeShape, Mesh, TetrahedralMesh, Vec3, VoxelVolume } from './types.ts';
+import type { BakeShape, Mesh, TetrahedralMesh, TypedArray, Vec3, VoxelVolume } from './types.ts';
+
+interface PreparedVolume extends Omit<VoxelVolume, 'inside'> {
+  readonly inside: ArrayLike<number>;
+  readonly voxels: Uint32Array;
+}
 
 interface PreparedShape {
   /** In arrays of its own: a bake lets events in, and the caller's may change or go to another thread meanwhile. */
   readonly mesh: Mesh;
   readonly cloud: boolean;
-  /** The inside, where the shape is a volume. */
-  readonly voxels: Uint32Array | undefined;
+  /** The grid and its voxels inside, where the shape is a volume. */
+  readonly volume: PreparedVolume | undefined;
   /** Of a solid: 1 for the vertices that its tetrahedra use. */
   readonly used: Uint8Array | undefined;
 }
@@ -21,10 +27,14 @@ interface PreparedShape {
 const MOST_VOXELS = 64e6;
 
 /** Checks a shape's arrays and makes its mesh. Throws 'invalid-shape', 'mesh-too-large', 'mesh-index-out-of-range' … */
-export function prepareShape(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
+export function prepareShape(heap: Heap<Exports>, given: BakeShape): PreparedShape {
+  const shape = meshLike(given, 'shape') as unknown as BakeShape;
+  // Without this, a body whose triangles are misspelt would be a cloud of points.
+  checkNames(shape, SHAPE_NAMES, 'shape');
   const prepared = prepare(heap, shape);
-  if ('dimensions' in shape) return aboutOrigin(prepared);
-  const { origin, reading } = shape;
+  if (isVolume(shape)) return aboutOrigin(prepared);
+  const { reading } = shape;
+  const { origin } = readOrigin({ ...shape });
   const mesh = { ...prepared.mesh, ...(reading && { reading: structuredClone(reading) }) };
   return origin ? { ...prepared, mesh: withOrigin(mesh, origin) } : aboutOrigin({ ...prepared, mesh });
 }
@@ -57,23 +67,29 @@ function withOrigin(mesh: Mesh, origin: Vec3): Mesh {
 }
 
 function prepare(heap: Heap<Exports>, shape: BakeShape): PreparedShape {
-  if ('dimensions' in shape) return prepareVolume(shape);
-  checkSize(heap, shape);
-  const cloud = !('triangles' in shape || 'tetrahedra' in shape);
+  if (isVolume(shape)) return prepareVolume(shape);
+  const { triangles: faces, tetrahedra } = shape as Partial<Mesh & TetrahedralMesh>;
+  const given = readPositions({ ...shape }, 3);
+  const corners = faces ?? tetrahedra;
+  checkSize(heap, given, numberCount(corners) / (faces === undefined ? 4 : 3));
+  const cloud = corners === undefined;
   const mesh: Mesh = {
-    positions: copied(shape.positions),
-    triangles: 'triangles' in shape ? copied(shape.triangles) : new Uint32Array(),
+    positions: ownTyped(given, Float64Array),
+    triangles: faces === undefined ? new Uint32Array() : ownTyped(readCorners(faces, 'triangles'), Uint32Array),
   };
-  checkMeshArrays(mesh);
   // The array is this function's own.
-  if (!('tetrahedra' in shape)) {
+  if (cloud || faces !== undefined) {
     if (!cloud) placeUnheld(mesh.positions as Float64Array, mesh.triangles);
-    return { mesh, cloud, voxels: undefined, used: undefined };
+    return { mesh, cloud, volume: undefined, used: undefined };
   }
-  const solid = { positions: mesh.positions, tetrahedra: unshared(shape.tetrahedra) };
+  const read = readCorners(tetrahedra, 'tetrahedra');
+  const solid = {
+    positions: mesh.positions,
+    tetrahedra: ArrayBuffer.isView(read) ? unshared(read as TypedArray) : Uint32Array.from(read),
+  };
   placeUnheld(mesh.positions as Float64Array, solid.tetrahedra);
   const triangles = boundaryTriangles(solid);
-  return { mesh: { positions: mesh.positions, triangles }, cloud, voxels: undefined, used: verticesOf(solid) };
+  return { mesh: { positions: mesh.positions, triangles }, cloud, volume: undefined, used: verticesOf(solid) };
 }
 
 /** 1 for the vertices of tetrahedra that have a volume. */
@@ -86,10 +102,26 @@ function verticesOf({ positions, tetrahedra }: TetrahedralMesh): Uint8Array {
   return used;
 }
 
+const SHAPE_NAMES = { positions: 0, triangles: 0, tetrahedra: 0, origin: 0, reading: 0, dimensions: 0, spacing: 0, inside: 0 };
+
+function isVolume(shape: BakeShape): shape is VoxelVolume {
+  return (shape as Partial<VoxelVolume>).dimensions !== undefined;
+}
+
+/** A copy in an array of its own type, or of this one where it came as a plain list. */
+function ownTyped(numbers: ArrayLike<number>, Kind: typeof Float64Array | typeof Uint32Array): TypedArray {
+  return ArrayBuffer.isView(numbers) ? copied(numbers as unknown as TypedArray) : Kind.from(numbers);
+}
+
+/** How many there are, before they are read; 0 where that is not known. */
+function numberCount(value: unknown): number {
+  const { length } = (value ?? []) as ArrayLike<number>;
+  return Number.isInteger(length) ? length : 0;
+}
+
 /** Checks the counts alone: nothing has been copied yet. */
-function checkSize(heap: Heap<Exports>, shape: Exclude<BakeShape, VoxelVolume>): void {
-  const indices = 'tetrahedra' in shape ? shape.tetrahedra.length / 4 : 'triangles' in shape ? shape.triangles.length / 3 : 0;
-  heap.check((e) => e.hb_mesh_check_size(shape.positions.length / 3, indices));
+function checkSize(heap: Heap<Exports>, positions: ArrayLike<number>, simplices: number): void {
+  heap.check((e) => e.hb_mesh_check_size(positions.length / 3, simplices));
 }
 
 /**
@@ -167,20 +199,20 @@ function withoutPairs(faces: Uint32Array): Uint32Array<ArrayBuffer> {
 
 /** A volume's surface: two triangles for each face between inside and outside. */
 function prepareVolume(given: VoxelVolume): PreparedShape {
-  const { dimensions, spacing, origin } = given;
-  const inside = unshared(given.inside);
-  const [nx, ny, nz] = dimensions;
-  const fits = dimensions.length === 3 && dimensions.every((n) => Number.isInteger(n) && n > 0);
-  if (!fits || nx * ny * nz > MOST_VOXELS || inside.length !== nx * ny * nz) {
-    throw new HandlebodyError(fits && nx * ny * nz > MOST_VOXELS ? 'mesh-too-large' : 'invalid-shape', {
+  const sides = row(given.dimensions, 'dimensions', 3);
+  const [nx, ny, nz] = Array.from(sides, (n, axis) => whole(1, 0xffff_ffff, 'invalid-shape')(n, `dimensions[${axis}]`)) as [
+    number,
+    number,
+    number,
+  ];
+  const dimensions = [nx, ny, nz] as const;
+  const spacing = positive(given.spacing, 'spacing');
+  const origin = Array.from(row(given.origin, 'origin', 3)) as unknown as Vec3;
+  const inside = unshared(numbers(given.inside, 'inside', { finite: false }));
+  if (nx * ny * nz > MOST_VOXELS || inside.length !== nx * ny * nz) {
+    throw new HandlebodyError(nx * ny * nz > MOST_VOXELS ? 'mesh-too-large' : 'invalid-shape', {
       message: `The volume has ${inside.length} voxels for the dimensions ${dimensions.join(' × ')}.`,
       remedy: 'Give one byte for each of nx × ny × nz voxels, 64 million at most.',
-    });
-  }
-  if (!(spacing > 0 && Number.isFinite(spacing)) || !(origin.length === 3 && origin.every(Number.isFinite))) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `A volume cannot have the spacing ${spacing} and the origin ${origin.join(', ')}.`,
-      remedy: "Give the edge of a cube, and the center of the first voxel, in the model's units.",
     });
   }
   const voxels = Uint32Array.from(insideVoxels(inside));
@@ -190,7 +222,8 @@ function prepareVolume(given: VoxelVolume): PreparedShape {
       remedy: 'Mark the voxels inside with 1.',
     });
   }
-  return { mesh: volumeSurface({ ...given, inside }, voxels), cloud: false, voxels, used: undefined };
+  const volume = { dimensions, spacing, origin, inside, voxels };
+  return { mesh: volumeSurface(volume), cloud: false, volume, used: undefined };
 }
 
 function* insideVoxels(inside: ArrayLike<number>): Generator<number> {
@@ -207,7 +240,7 @@ const SIDES = [
   [0, 0, 1, [4, 5, 7, 6]],
 ] as const;
 
-function volumeSurface({ dimensions: [nx, ny, nz], spacing, origin, inside }: VoxelVolume, voxels: Uint32Array): Mesh {
+function volumeSurface({ dimensions: [nx, ny, nz], spacing, origin, inside, voxels }: PreparedVolume): Mesh {
   const numbers = new Map<number, number>();
   const positions: number[] = [];
   const triangles: number[] = [];

@@ -1,73 +1,52 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import { options, row } from './arguments.ts';
+import { BAKE_DEFAULTS, BAKE_READERS, METHODS, PACKINGS } from './bake-options.ts';
 import { prepareShape } from './bake-shape.ts';
 import { tellWarnings } from './bake-warnings.ts';
-import { HandlebodyError, throwIfAborted } from './errors.ts';
+import { throwIfAborted } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
 import { runStepped } from './stepped.ts';
 import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh } from './types.ts';
 
-export const BAKE_DEFAULTS = {
-  centers: 200,
-  distance: 'fast-marching',
-  resolution: 96,
-  spheres: 120,
-  packing: 'skeleton',
-} as const;
-
-const METHODS: Record<DistanceMethod, number> = { 'fast-marching': 0, euclidean: 1, heat: 2, 'mean-value': 3 };
-const PACKINGS = { skeleton: 0, tree: 1 } as const;
-
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
-export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeOptions): Promise<BodyData> {
+export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOptions): Promise<BodyData> {
   // Read once: from the first pause on, shape and options may be others.
-  const { centers, distance, resolution, spheres, packing, density, signal, onProgress, onWarning } = {
-    ...BAKE_DEFAULTS,
-    ...options,
-  };
+  const { centers, distance, resolution, spheres, packing, density, signal, onProgress, onWarning } = options(
+    given,
+    BAKE_READERS,
+    BAKE_DEFAULTS,
+  );
   throwIfAborted(signal);
-  for (const [name, value] of Object.entries({ centers, resolution, spheres })) {
-    if (!Number.isInteger(value) || value < 1 || value > 0xffff_ffff) {
-      throw new HandlebodyError('invalid-option', {
-        message: `The bake's "${name}" is ${value}.`,
-        remedy: `Give a positive whole number, for instance ${BAKE_DEFAULTS[name as 'centers']}.`,
-      });
-    }
-  }
   const numbers = {
     center_count: centers,
     resolution,
-    method: chosen('distance method', METHODS, distance),
+    method: METHODS.indexOf(distance),
     max_spheres: spheres,
-    packing: chosen('packing', PACKINGS, packing),
+    packing: PACKINGS.indexOf(packing),
   };
-  const { mesh, cloud, voxels, used } = prepareShape(heap, shape);
+  const { mesh, cloud, volume, used } = prepareShape(heap, shape);
   const vertexCount = mesh.positions.length / 3;
-  if (density && density.length !== vertexCount) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `There are ${density.length} densities for ${vertexCount} vertices.`,
-      remedy: 'Give one number a vertex, 1 where nothing special is wanted.',
-    });
-  }
+  if (density) row(density, 'density', vertexCount);
 
   const handle = heap.scope((scratch) => {
     const layout = LAYOUT.hb_bake_options;
-    const [given, out] = [scratch.reserve(layout.sizeof), scratch.reserve(4)];
-    const put = (offset: number, value: number) => heap.u32(given + offset, 1).fill(value);
+    const [at, out] = [scratch.reserve(layout.sizeof), scratch.reserve(4)];
+    const put = (offset: number, value: number) => heap.u32(at + offset, 1).fill(value);
     const positions = scratch.putF64(mesh.positions);
     const triangles = scratch.putU32(mesh.triangles);
     for (const [name, value] of Object.entries(numbers)) put(layout[name as keyof typeof numbers], value);
     put(layout.cloud, cloud ? 1 : 0);
     if (density) put(layout.density, scratch.putF64(density));
     if (used) put(layout.used, scratch.putU8(used));
-    if (voxels && 'dimensions' in shape) {
-      put(layout.voxel_count, voxels.length);
-      put(layout.voxels, scratch.putU32(voxels));
-      heap.u32(given + layout.dims, 3).set(shape.dimensions);
-      heap.f64(given + layout.origin, 3).set(shape.origin.map((x, axis) => x - (mesh.origin?.[axis] ?? 0)));
-      heap.f64(given + layout.spacing, 1).fill(shape.spacing);
+    if (volume) {
+      put(layout.voxel_count, volume.voxels.length);
+      put(layout.voxels, scratch.putU32(volume.voxels));
+      heap.u32(at + layout.dims, 3).set(volume.dimensions);
+      heap.f64(at + layout.origin, 3).set(volume.origin.map((x, axis) => x - (mesh.origin?.[axis] ?? 0)));
+      heap.f64(at + layout.spacing, 1).fill(volume.spacing);
     }
-    heap.check((e) => e.hb_bake_begin(positions, vertexCount, triangles, mesh.triangles.length / 3, given, out));
+    heap.check((e) => e.hb_bake_begin(positions, vertexCount, triangles, mesh.triangles.length / 3, at, out));
     return heap.u32(out, 1)[0] ?? 0;
   });
   try {
@@ -82,14 +61,6 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, options: BakeO
   } finally {
     heap.release((e) => e.hb_bake_free(handle));
   }
-}
-
-function chosen<Name extends string>(what: string, numbers: Record<Name, number>, name: Name): number {
-  if (Object.hasOwn(numbers, name)) return numbers[name];
-  throw new HandlebodyError('invalid-option', {
-    message: `There is no ${what} called "${name}".`,
-    remedy: `Use one of: ${Object.keys(numbers).join(', ')}.`,
-  });
 }
 
 function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: DistanceMethod): BodyData {

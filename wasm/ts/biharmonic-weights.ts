@@ -1,7 +1,8 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import { callback, flag, named, number, optional, type Readers, options as readOptions, signal, whole } from './arguments.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import type { Heap } from './heap.ts';
-import type { MeshOptions } from './mesh-warnings.ts';
+import { MESH_READERS, type MeshOptions } from './mesh-warnings.ts';
 import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import { runStepped, type SteppedOptions } from './stepped.ts';
@@ -23,6 +24,14 @@ export interface BiharmonicWeightsOptions extends MeshOptions {
 }
 
 export const BIHARMONIC_WEIGHTS_DEFAULTS = { order: 2, bounded: false, mass: 'voronoi', ...MESH_DEFAULTS } as const;
+
+const MASSES = ['voronoi', 'barycentric'] as const;
+const READERS = {
+  ...MESH_READERS,
+  order: whole(1, 3),
+  bounded: flag,
+  mass: named(MASSES),
+} satisfies Readers<BiharmonicWeightsOptions>;
 
 /**
  * A connected part of the mesh that no handle touches: it follows the nearest handle, its `weights` are 1 for that one. A vertex that no
@@ -55,6 +64,12 @@ export interface BoundOptions extends SteppedOptions {
 }
 
 export const BOUND_DEFAULTS = { tolerance: 1e-6 } as const;
+
+const BOUND_READERS = {
+  tolerance: number('a number above 0 and below 1', (x) => x > 0 && x < 1),
+  signal: optional(signal),
+  onProgress: optional(callback),
+} satisfies Readers<BoundOptions>;
 
 /** A square matrix by rows: entries `starts[i]` to `starts[i + 1]` of row i, in ascending columns. */
 export interface SparseRows {
@@ -96,15 +111,9 @@ export class BiharmonicWeights {
 
   /** @internal Use `Handlebody.biharmonicWeights`. */
   constructor(heap: Heap<Exports>, mesh: SimplexMesh, handles: readonly WeightHandle[], options: BiharmonicWeightsOptions = {}) {
-    const { order, mass, bounded } = { ...BIHARMONIC_WEIGHTS_DEFAULTS, ...options };
-    if (mass !== 'voronoi' && mass !== 'barycentric') {
-      throw new HandlebodyError('invalid-option', {
-        message: `There is no mass called "${mass}".`,
-        remedy: 'Use one of: voronoi, barycentric.',
-        culprit: { kind: 'option', index: -1 },
-      });
-    }
-    const made = new SoundMesh(heap, mesh, options);
+    const read = readOptions(options, READERS, BIHARMONIC_WEIGHTS_DEFAULTS);
+    const { order, mass, bounded } = read;
+    const made = new SoundMesh(heap, mesh, read);
     this.vertexCount = made.vertexCount;
     this.vertexOf = made.vertexOf;
     this.#heap = heap;
@@ -113,7 +122,7 @@ export class BiharmonicWeights {
     this.#object = heap.scope((scratch) => {
       const shape = putMesh(heap, scratch, made.sound);
       const out = scratch.reserve(4);
-      heap.check((e) => e.hb_skinning_weights_create(shape, order, mass === 'voronoi' ? 0 : 1, out));
+      heap.check((e) => e.hb_skinning_weights_create(shape, order, MASSES.indexOf(mass), out));
       return heap.u32(out, 1)[0] ?? 0;
     });
     try {
@@ -224,9 +233,13 @@ export class BiharmonicWeights {
    * `weights` are what they were. `setHandles` in between ends it.
    */
   async bound(options: BoundOptions = {}): Promise<BoundedReport> {
-    throwIfAborted(options.signal);
-    const run = this.#beginBounding(options.tolerance ?? BOUND_DEFAULTS.tolerance);
-    await runStepped(this.#heap, (progress) => this.#step(progress, run), options);
+    const { tolerance, signal, onProgress } = readOptions(options, BOUND_READERS, BOUND_DEFAULTS);
+    throwIfAborted(signal);
+    const run = this.#beginBounding(tolerance);
+    await runStepped(this.#heap, (progress) => this.#step(progress, run), {
+      ...(signal && { signal }),
+      ...(onProgress && { onProgress }),
+    });
     if (run !== this.#run) {
       throw new HandlebodyError('aborted', {
         message: 'Other handles were set while the weights of the former ones were bounded.',

@@ -1,6 +1,6 @@
 import type { Exports } from './abi.generated.ts';
+import { checkRoom, indices, type Numbers, named, numbers, options, type Reader, type Readers, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
 import type { TypedArray } from './types.ts';
 
@@ -14,9 +14,9 @@ export interface DiscreteGreenOptions {
   readonly order?: 1 | 2 | 3;
   readonly boundary?: GridBoundary;
   /** Where values are known: different numbers from 0 to size − 1. */
-  readonly samples: ArrayLike<number>;
+  readonly samples: Numbers;
   /** One per sample. */
-  readonly values: ArrayLike<number>;
+  readonly values: Numbers;
 }
 
 export const DISCRETE_GREEN_DEFAULTS = { order: 2, boundary: 'free' } as const;
@@ -28,8 +28,16 @@ export interface GridMatrix {
   readonly values: Float64Array;
 }
 
-const BOUNDARIES: Record<GridBoundary, number> = { free: 0, dirichlet: 1, neumann: 2, periodic: 3 };
+const BOUNDARIES: readonly GridBoundary[] = ['free', 'dirichlet', 'neumann', 'periodic'];
 const MATRICES = { operator: 0, squared: 1, nullSpace: 2, green: 3 } as const;
+
+const READERS = {
+  size: whole(1, 2 ** 31 - 1),
+  order: whole(1, 3) as Reader<1 | 2 | 3>,
+  boundary: named(BOUNDARIES),
+  samples: (value, name, { size } = {}) => indices(value, name, { kind: 'point', code: 'invalid-option' }, size as number),
+  values: (value, name) => numbers(value, name, { kind: 'point', code: 'value-not-finite' }),
+} satisfies Readers<DiscreteGreenOptions>;
 
 /**
  * Where kernels come from (2014 course, §5.4–5.6): the curve through given samples of a grid that minimizes ‖Df‖², D a difference
@@ -58,14 +66,19 @@ export class DiscreteGreen {
   #handle: number;
 
   /** @internal Use `Handlebody.discreteGreen`. */
-  constructor(heap: Heap<Exports>, options: DiscreteGreenOptions) {
-    const { size, order, boundary, samples, values } = { ...DISCRETE_GREEN_DEFAULTS, ...options };
-    checkOptions(size, order, boundary, samples, values);
+  constructor(heap: Heap<Exports>, given: DiscreteGreenOptions) {
+    const { size, order, boundary, samples, values } = options(given, READERS, DISCRETE_GREEN_DEFAULTS);
+    if (samples.length !== values.length) {
+      throw new HandlebodyError('invalid-shape', {
+        message: `There are ${values.length} values for ${samples.length} samples.`,
+        remedy: 'Give each sample one value.',
+      });
+    }
     const made = heap.scope((scratch) => {
       const from = scratch.putU32(samples);
       const at = scratch.putF64(values);
       const out = scratch.reserve(8);
-      heap.check((e) => e.hb_discrete_green_create(size, order, BOUNDARIES[boundary], from, at, samples.length, out));
+      heap.check((e) => e.hb_discrete_green_create(size, order, BOUNDARIES.indexOf(boundary), from, at, samples.length, out));
       const handle = heap.u32(out, 1)[0] ?? 0;
       heap.check((e) => e.hb_discrete_green_shape(handle, out, out + 4));
       const [rows = 0, nullity = 0] = heap.u32(out, 2);
@@ -150,10 +163,10 @@ export class DiscreteGreen {
   }
 
   #solve<T extends TypedArray>(given: T | undefined, weights: TypedArray | undefined): T {
-    const out: TypedArray = given ?? new Float64Array(this.size);
     const handle = this.#alive();
-    checkRoom('curve', out, this.size);
-    if (weights) checkRoom('weights', weights, this.sampleCount + this.nullity);
+    if (given !== undefined) checkRoom(given, 'out', this.size);
+    if (weights !== undefined) checkRoom(weights, 'weights', this.sampleCount + this.nullity);
+    const out: TypedArray = given ?? new Float64Array(this.size);
     this.#heap.scope((scratch) => {
       const curve = scratch.reserve(8 * this.size);
       const at = scratch.reserve(8 * (weights?.length ?? 0));
@@ -165,41 +178,4 @@ export class DiscreteGreen {
     });
     return out as T;
   }
-}
-
-/** Checks what C cannot see: names, lengths, and numbers that are not whole. */
-function checkOptions(size: number, order: number, boundary: string, samples: ArrayLike<number>, values: ArrayLike<number>): void {
-  const wrong = (message: string, remedy: string, culprit: 'option' | 'point' = 'option', index = -1) =>
-    new HandlebodyError('invalid-option', { message, remedy, culprit: { kind: culprit, index } });
-  if (!Object.hasOwn(BOUNDARIES, boundary))
-    throw wrong(`There is no boundary called "${boundary}".`, `Use one of: ${Object.keys(BOUNDARIES).join(', ')}.`);
-  if (!Number.isInteger(size) || size < 1 || size > 2 ** 31)
-    throw wrong(`The size ${size} is no number of samples.`, 'Use 4 to 1024.');
-  if (!Number.isInteger(order) || order < 1)
-    throw wrong(`The order ${order} of the differences is not 1, 2 or 3.`, 'Use 1, 2 or 3.');
-  if (samples.length !== values.length) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `There are ${values.length} values for ${samples.length} samples.`,
-      remedy: 'Give each sample one value.',
-    });
-  }
-  for (let k = 0; k < samples.length; k++) {
-    const sample = samples[k] as number;
-    if (Number.isInteger(sample) && sample >= 0 && sample < size) continue;
-    throw wrong(
-      `Sample ${k} is at ${sample}, which is no place of the grid.`,
-      `Use whole numbers from 0 to ${size - 1}.`,
-      'point',
-      k,
-    );
-  }
-}
-
-function checkRoom(what: string, out: TypedArray, length: number): void {
-  checkFractions(out);
-  if (out.length === length) return;
-  throw new HandlebodyError('invalid-shape', {
-    message: `There is room for ${out.length} numbers of the ${what}, of which there are ${length}.`,
-    remedy: `Give ${length} numbers, or leave it out.`,
-  });
 }

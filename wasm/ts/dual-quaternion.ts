@@ -1,5 +1,6 @@
+import { options } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { BlendedSkin, type SkinOptions } from './skin.ts';
+import { BlendedSkin, SKIN_DEFAULTS, SKIN_READERS, type SkinOptions } from './skin.ts';
 
 /**
  * Dual quaternion blending (Kavan et al. 2008): every vertex moves by a rigid average of the handles' motions, so that nothing collapses
@@ -14,8 +15,8 @@ import { BlendedSkin, type SkinOptions } from './skin.ts';
  */
 export class DualQuaternion extends BlendedSkin {
   /** @internal Use `Handlebody.dualQuaternion`. */
-  constructor(heap: Heap, options: SkinOptions) {
-    super(heap, options, (e, out, { positions, count, dimension, weights, handleCount }) =>
+  constructor(heap: Heap, given: SkinOptions) {
+    super(heap, options(given, SKIN_READERS, SKIN_DEFAULTS), (e, out, { positions, count, dimension, weights, handleCount }) =>
       e.hb_dual_quaternion_create(positions, count, dimension, weights, handleCount, out),
     );
   }

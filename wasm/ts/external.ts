@@ -1,5 +1,6 @@
+import { bound } from './bound.ts';
 import { Handlebody } from './handlebody.ts';
-import { instantiate, type LoadOptions } from './load.ts';
+import { instantiate, type LoadOptions, readLoadOptions } from './load.ts';
 
 export * from './api.ts';
 
@@ -13,6 +14,6 @@ export * from './api.ts';
  * ```
  */
 export async function load(options: LoadOptions = {}): Promise<Handlebody> {
-  const source = options.wasm ?? new URL('../../../wasm/handlebody.wasm', import.meta.url);
-  return new Handlebody(await instantiate('handlebody.wasm', source, options.signal));
+  const { wasm = new URL('../../../wasm/handlebody.wasm', import.meta.url), signal } = readLoadOptions(options);
+  return bound(new Handlebody(await instantiate('handlebody.wasm', wasm, signal)));
 }

@@ -1,3 +1,4 @@
+import { bound } from './bound.ts';
 import { DualQuaternion } from './dual-quaternion.ts';
 import type { Heap } from './heap.ts';
 import { createIrbf, type Irbf } from './irbf.ts';
@@ -46,17 +47,17 @@ export class HandlebodyRuntime {
 
   /** Prepares a baked body for deformation by handles. */
   irbf(body: BodyData, options: IrbfOptions = {}): Irbf {
-    return createIrbf(this.#heap, body, options);
+    return bound(createIrbf(this.#heap, body, options));
   }
 
   /** Prepares examples in a pose space for interpolation. */
   poseSpace(options: PoseSpaceOptions): PoseSpace {
-    return new PoseSpace(this.#heap, options);
+    return bound(new PoseSpace(this.#heap, options));
   }
 
   /** Radial basis interpolation of scattered data, or a smooth fit. */
   rbf(options: RbfOptions): Rbf {
-    return new Rbf(this.#heap, options);
+    return bound(new Rbf(this.#heap, options));
   }
 
   /** Finds outliers: points that a radial basis interpolant has to bend for. */
@@ -66,37 +67,37 @@ export class HandlebodyRuntime {
 
   /** Linear interpolation of scattered data on its Delaunay simplices, in any dimension. */
   simplexLinear(options: SimplexLinearOptions): SimplexLinear {
-    return new SimplexLinear(this.#heap, options);
+    return bound(new SimplexLinear(this.#heap, options));
   }
 
   /** Sibson's natural neighbor interpolation of scattered data in the plane. */
   naturalNeighbor(options: NaturalNeighborOptions): NaturalNeighbor {
-    return new NaturalNeighbor(this.#heap, options);
+    return bound(new NaturalNeighbor(this.#heap, options));
   }
 
   /** Shepard's inverse-distance weighting of scattered data. */
   shepard(options: ShepardOptions): Shepard {
-    return new Shepard(this.#heap, options);
+    return bound(new Shepard(this.#heap, options));
   }
 
   /** Moving least squares of scattered data: at every place a polynomial of its own. */
   movingLeastSquares(options: MovingLeastSquaresOptions): MovingLeastSquares {
-    return new MovingLeastSquares(this.#heap, options);
+    return bound(new MovingLeastSquares(this.#heap, options));
   }
 
   /** Splines with tension: smooth, with less overshoot, or falling back to zero, according to three weights. */
   tensionSpline(options: TensionSplineOptions): TensionSpline {
-    return new TensionSpline(this.#heap, options);
+    return bound(new TensionSpline(this.#heap, options));
   }
 
   /** Linear blend skinning in the plane or in space. */
   linearBlend(options: LinearBlendOptions): LinearBlend {
-    return new LinearBlend(this.#heap, options);
+    return bound(new LinearBlend(this.#heap, options));
   }
 
   /** Skinning by dual quaternions: a rigid motion at every vertex. */
   dualQuaternion(options: SkinOptions): DualQuaternion {
-    return new DualQuaternion(this.#heap, options);
+    return bound(new DualQuaternion(this.#heap, options));
   }
 
   /**

@@ -1,6 +1,7 @@
 import type { Exports } from './abi.generated.ts';
 import { bake } from './bake.ts';
 import { BiharmonicWeights, type BiharmonicWeightsOptions } from './biharmonic-weights.ts';
+import { bound } from './bound.ts';
 import { DiscreteGreen, type DiscreteGreenOptions } from './discrete-green.ts';
 import { HandlebodyRuntime } from './handlebody-runtime.ts';
 import type { Heap } from './heap.ts';
@@ -39,12 +40,12 @@ export class Handlebody extends HandlebodyRuntime {
 
   /** The smoothest curve through samples of a grid, by its equations and by the kernel that they imply. */
   discreteGreen(options: DiscreteGreenOptions): DiscreteGreen {
-    return new DiscreteGreen(this.#heap, options);
+    return bound(new DiscreteGreen(this.#heap, options));
   }
 
   /** Fills a surface with tetrahedra, on which weights are those of a solid. */
   tetrahedralize(surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
-    return tetrahedralize(this.#heap, surface, options);
+    return bound(tetrahedralize(this.#heap, surface, options));
   }
 
   /** Harmonic, biharmonic or triharmonic skinning weights of handles on a mesh. */
@@ -53,7 +54,7 @@ export class Handlebody extends HandlebodyRuntime {
     handles: readonly WeightHandle[],
     options: BiharmonicWeightsOptions = {},
   ): BiharmonicWeights {
-    return new BiharmonicWeights(this.#heap, mesh, handles, options);
+    return bound(new BiharmonicWeights(this.#heap, mesh, handles, options));
   }
 
   /** How smooth, local, shape-aware and bounded weights are, and whether they sum to 1. */
@@ -68,6 +69,6 @@ export class Handlebody extends HandlebodyRuntime {
 
   /** The deformation of triangles in the plane that minimizes an energy under handles. */
   minimizeEnergy(mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions): EnergyMinimizer {
-    return new EnergyMinimizer(this.#heap, mesh, handles, options);
+    return bound(new EnergyMinimizer(this.#heap, mesh, handles, options));
   }
 }

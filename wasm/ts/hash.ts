@@ -1,3 +1,5 @@
+import { type Numbers, numbers } from './arguments.ts';
+
 /**
  * A 64-bit hash, after FNV-1a, of positions rounded to float: it ties baked distances to the mesh that they were computed for, however
  * the file that carries both was stored. Not a defence against forgery.
@@ -6,9 +8,10 @@
  * hashPositions(mesh.positions) === body.positionsHash; // the body was baked for this mesh
  * ```
  */
-export function hashPositions(positions: ArrayLike<number>): string {
-  if (positions.length === 0) return hashWords([]); // an array whose memory went to another thread cannot even be read
-  const floats = positions instanceof Float32Array ? positions : Float32Array.from(positions);
+export function hashPositions(positions: Numbers): string {
+  const list = numbers(positions, 'positions', { finite: false });
+  if (list.length === 0) return hashWords([]); // an array whose memory went to another thread cannot even be read
+  const floats = list instanceof Float32Array ? list : Float32Array.from(list);
   return hashWords([new Uint32Array(floats.buffer, floats.byteOffset, floats.length)]);
 }
 

@@ -1,4 +1,5 @@
 import { WASM_BYTES, WASM_DEFLATED_BASE64 } from './binary.generated.ts';
+import { bound } from './bound.ts';
 import { Handlebody } from './handlebody.ts';
 import { compile, loadInline } from './inline.ts';
 import type { LoadOptions } from './load.ts';
@@ -15,7 +16,7 @@ export * from './api.ts';
  * ```
  */
 export async function load(options: LoadOptions = {}): Promise<Handlebody> {
-  return new Handlebody(await loadInline('handlebody.wasm', INSIDE, options));
+  return bound(new Handlebody(await loadInline('handlebody.wasm', INSIDE, options)));
 }
 
 const INSIDE = { bytes: WASM_BYTES, deflated: WASM_DEFLATED_BASE64 };

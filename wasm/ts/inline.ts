@@ -1,6 +1,6 @@
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
-import { checkWebAssembly, instantiate, type Link, type Links, type LoadOptions } from './load.ts';
+import { checkWebAssembly, instantiate, type Link, type Links, type LoadOptions, readLoadOptions } from './load.ts';
 
 /** A wasm file that the library carries inside: its size, and itself in raw deflate and base64. */
 interface InlineWasm {
@@ -9,11 +9,8 @@ interface InlineWasm {
 }
 
 /** Starts one of the two links: from the wasm that the caller names, or else from the one inside. */
-export async function loadInline<L extends Link>(
-  link: L,
-  inside: InlineWasm,
-  { wasm, signal }: LoadOptions,
-): Promise<Heap<Links[L]>> {
+export async function loadInline<L extends Link>(link: L, inside: InlineWasm, options: LoadOptions): Promise<Heap<Links[L]>> {
+  const { wasm, signal } = readLoadOptions(options);
   if (wasm) return instantiate(link, wasm, signal);
   checkWebAssembly();
   let module: WebAssembly.Module;

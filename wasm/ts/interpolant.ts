@@ -1,18 +1,41 @@
 import type { RuntimeExports } from './abi.generated.ts';
+import { callback, checkRoom, type Numbers, notNumber, numbers, optional, type Readers, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import type { Heap, Scratch } from './heap.ts';
+import type { RbfWarning } from './rbf-report.ts';
 import type { TypedArray } from './types.ts';
 
 /** Points with values, as every scattered interpolant takes them. */
 export interface ScatteredData {
   /** Number of coordinates of a point, 1 to 64. */
   readonly dimension: number;
-  /** n × dimension, row-major. */
+  /** n × dimension, row-major; or n rows. */
+  readonly points: Numbers;
+  /** n × m, row-major: m numbers per point, which share all the work; or n rows. */
+  readonly values: Numbers;
+  /** Called for each warning when the interpolant is made. By default they go to the console; methods with a `report()` have them there too. */
+  readonly onWarning?: (warning: RbfWarning) => void;
+}
+
+/** Points with values as they were read. @internal */
+export interface ReadData {
+  readonly dimension: number;
   readonly points: ArrayLike<number>;
-  /** n × m, row-major: m numbers per point, which share all the work. */
   readonly values: ArrayLike<number>;
 }
+
+/** @internal How every interpolant reads its points and values. */
+export const SCATTERED = {
+  dimension: whole(1, 64, 'invalid-shape'),
+  points: (value, name, { dimension } = {}) =>
+    numbers(value, name, { code: 'point-not-finite', kind: 'point', width: dimension as number }),
+  values: (value, name, { dimension, points } = {}) => {
+    const count = (points as ArrayLike<number>).length / (dimension as number);
+    const width = ((value as ArrayLike<unknown> | undefined)?.length ?? 0) / count;
+    return numbers(value, name, { code: 'value-not-finite', kind: 'point', width });
+  },
+  onWarning: optional(callback),
+} satisfies Readers<ScatteredData>;
 
 /** The arguments that every *_create function of the C interface begins with, and its last. */
 interface CreateArguments {
@@ -27,6 +50,10 @@ interface CreateArguments {
 
 /** Queries that are passed to the solver at a time: its scratch memory stays bounded, however many are asked. */
 const BATCH = 4096;
+
+/** Queries are checked as they are copied. Made once, so that a call allocates nothing. */
+const ANY = { code: 'query-not-finite', kind: 'query', finite: false } as const;
+const QUERY = { code: 'query-not-finite', kind: 'query' } as const;
 
 /**
  * A function made of scattered data: f(x) = Σ wₖ(x) fₖ, one weight for each point. Arrays are row-major; `out` may be handed over to
@@ -56,7 +83,7 @@ export abstract class Interpolant {
   /** @internal */
   protected constructor(
     heap: Heap,
-    data: ScatteredData,
+    data: ReadData,
     create: (exports: RuntimeExports, given: CreateArguments, options: number) => number,
     /** Puts further arguments into memory and returns their address. */
     writeOptions: (scratch: Scratch) => number = () => 0,
@@ -86,17 +113,17 @@ export abstract class Interpolant {
   }
 
   /** Values (q × outputs) at queries (q × dimension). */
-  evaluate<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
+  evaluate<T extends TypedArray = Float64Array>(queries: Numbers, out?: T): T {
     return this.#ask('evaluate', queries, this.outputs, out);
   }
 
   /** Gradients (q × outputs × dimension) at queries (q × dimension); NaN where there is none. */
-  gradient<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
+  gradient<T extends TypedArray = Float64Array>(queries: Numbers, out?: T): T {
     return this.#ask('gradient', queries, this.outputs * this.dimension, out);
   }
 
   /** The points' weights (q × size) at queries (q × dimension): a value is the sum of the points' values times their weights. */
-  weights<T extends TypedArray = Float64Array>(queries: ArrayLike<number>, out?: T): T {
+  weights<T extends TypedArray = Float64Array>(queries: Numbers, out?: T): T {
     return this.#ask('weights', queries, this.size, out);
   }
 
@@ -122,35 +149,25 @@ export abstract class Interpolant {
     });
   }
 
-  #ask<T extends TypedArray>(
-    what: 'evaluate' | 'gradient' | 'weights',
-    queries: ArrayLike<number>,
-    width: number,
-    given: T | undefined,
-  ): T {
+  #ask<T extends TypedArray>(what: 'evaluate' | 'gradient' | 'weights', given: Numbers, width: number, room: T | undefined): T {
     const { handle, heap, dimension } = this;
+    const queries = numbers(given, 'queries', ANY);
     const count = queries.length / dimension;
     if (!Number.isInteger(count)) throw notRows('queries', queries.length, dimension);
-    const out: TypedArray = given ?? new Float64Array(count * width);
-    checkFractions(out);
-    if (out.length !== count * width) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `${what}() got room for ${out.length} numbers; ${count} queries make ${count * width}.`,
-        remedy: `Give ${width} numbers a query, or leave it out.`,
-      });
-    }
+    if (room !== undefined) checkRoom(room, 'out', count * width);
+    const out: TypedArray = room ?? new Float64Array(count * width);
     for (let first = 0; first < count; first += BATCH) {
       const batch = Math.min(BATCH, count - first);
       this.#reserve(8 * batch * (dimension + width));
       const from = this.#scratch;
       const to = from + 8 * batch * dimension;
       const input = heap.f64(from, batch * dimension);
-      for (let i = 0, at = first * dimension; i < input.length; i++, at++) input[i] = queries[at] as number;
-      try {
-        heap.check((e) => e[`hb_interpolant_${what}`](handle, from, batch, to));
-      } catch (error) {
-        throw countFrom(error, first);
+      for (let i = 0, at = first * dimension; i < input.length; i++, at++) {
+        const x = queries[at] as number;
+        if (!Number.isFinite(x)) throw notNumber(`queries[${at}]`, x, at / dimension, QUERY);
+        input[i] = x;
       }
+      heap.check((e) => e[`hb_interpolant_${what}`](handle, from, batch, to));
       heap.kernels.throwFailure();
       out.set(heap.f64(to, batch * width), first * width);
     }
@@ -168,13 +185,7 @@ export abstract class Interpolant {
 }
 
 /** The counts that the lengths of the arrays imply. */
-export function checkShapes({ dimension, points, values }: ScatteredData): { count: number; outputs: number } {
-  if (!Number.isInteger(dimension) || dimension < 1) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `The dimension is ${dimension}.`,
-      remedy: 'Give the number of coordinates of a point, 1 or more.',
-    });
-  }
+export function checkShapes({ dimension, points, values }: ReadData): { count: number; outputs: number } {
   const count = points.length / dimension;
   if (!Number.isInteger(count)) throw notRows('points', points.length, dimension);
   if (count === 0) {
@@ -197,17 +208,5 @@ function notRows(what: string, length: number, dimension: number): HandlebodyErr
   return new HandlebodyError('invalid-shape', {
     message: `The ${length} numbers of the ${what} are no whole number of rows of ${dimension}.`,
     remedy: `Give ${dimension} coordinates for each, or another dimension.`,
-  });
-}
-
-/** The solver numbers the queries of a batch: translates the culprit's number into the caller's. */
-function countFrom(error: unknown, first: number): unknown {
-  if (first === 0 || !(error instanceof HandlebodyError) || error.culprit?.kind !== 'query') return error;
-  const index = error.culprit.index + first;
-  return new HandlebodyError(error.code, {
-    message: error.message.replace(`query ${error.culprit.index}`, `query ${index}`),
-    remedy: error.remedy,
-    culprit: { kind: 'query', index },
-    cause: error,
   });
 }

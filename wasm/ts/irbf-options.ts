@@ -1,8 +1,8 @@
 import { LAYOUT } from './abi.generated.ts';
-import { HandlebodyError } from './errors.ts';
+import { callback, finite, named, options, positive, type Read, type Reader, type Readers, whole } from './arguments.ts';
 import type { Heap, Scratch } from './heap.ts';
-import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS } from './kernels.ts';
-import type { IrbfOptions } from './types.ts';
+import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS, type KernelFunction } from './kernels.ts';
+import type { IrbfKernel, IrbfOptions } from './types.ts';
 
 /** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, would be 1e-6 here. */
 export const IRBF_DEFAULTS = {
@@ -17,45 +17,42 @@ export const IRBF_DEFAULTS = {
   precision: 'fixed',
 } as const;
 
-type ResolvedIrbf = Required<IrbfOptions>;
+const RADIAL = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate') as IrbfKernel[];
 
-/** The options with their defaults; names that the solver would not see are checked. */
+const READERS = {
+  kernel: named(RADIAL, callback as Reader<KernelFunction>, 'a function of s'),
+  relativeWidth: positive,
+  smoothness: named(['auto'], positive, 'a positive number'),
+  constraints: named(['soft', 'hard']),
+  anchorWeight: positive,
+  edgeExponent: finite,
+  support: positive,
+  order: whole(2, 8),
+  precision: named(['fixed', 'float']),
+} satisfies Readers<IrbfOptions>;
+
+type ResolvedIrbf = Read<typeof READERS>;
+
+/** The options with their defaults; what the solver would not see is checked. */
 export function resolve(given: IrbfOptions): ResolvedIrbf {
-  const options: ResolvedIrbf = { ...IRBF_DEFAULTS, ...given };
-  const { kernel, constraints, precision, smoothness, order } = options;
-  const radial = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate');
-  if (typeof kernel !== 'function' && !radial.includes(kernel)) throw unknown('kernel', kernel, [...radial, 'a function of s']);
-  if (constraints !== 'soft' && constraints !== 'hard') throw unknown('kind of constraints', constraints, ['soft', 'hard']);
-  if (precision !== 'fixed' && precision !== 'float') throw unknown('precision', precision, ['fixed', 'float']);
-  if (typeof smoothness === 'string' ? smoothness !== 'auto' : !(smoothness > 0))
-    throw unknown('smoothness', smoothness, ["'auto'", 'a positive number']);
-  if (!Number.isInteger(order) || order < 2 || order > 8) throw unknown('order', order, ['a whole number from 2 to 8']);
-  return options;
+  return options(given, READERS, IRBF_DEFAULTS);
 }
 
 /** Puts the struct into scratch memory and returns its address. */
-export function writeOptions(heap: Heap, scratch: Scratch, options: ResolvedIrbf, hostKernel: number): number {
+export function writeOptions(heap: Heap, scratch: Scratch, how: ResolvedIrbf, hostKernel: number): number {
   const layout = LAYOUT.hb_irbf_options;
   const at = scratch.reserve(layout.sizeof);
   const doubles = heap.f64(at, layout.kernel / 8);
-  doubles[layout.relative_width / 8] = options.relativeWidth;
-  doubles[layout.smoothness / 8] = options.smoothness === 'auto' ? 0 : options.smoothness;
-  doubles[layout.anchor_weight / 8] = options.anchorWeight;
-  doubles[layout.edge_exponent / 8] = options.edgeExponent;
-  doubles[layout.support / 8] = options.support;
+  doubles[layout.relative_width / 8] = how.relativeWidth;
+  doubles[layout.smoothness / 8] = how.smoothness === 'auto' ? 0 : how.smoothness;
+  doubles[layout.anchor_weight / 8] = how.anchorWeight;
+  doubles[layout.edge_exponent / 8] = how.edgeExponent;
+  doubles[layout.support / 8] = how.support;
   const words = heap.u32(at, layout.sizeof / 4);
-  words[layout.kernel / 4] = typeof options.kernel === 'string' ? KERNEL_NUMBERS[options.kernel] : HOST_KERNEL;
+  words[layout.kernel / 4] = typeof how.kernel === 'string' ? KERNEL_NUMBERS[how.kernel] : HOST_KERNEL;
   words[layout.host_kernel / 4] = hostKernel;
-  words[layout.order / 4] = options.order;
-  words[layout.constraints / 4] = options.constraints === 'hard' ? 1 : 0;
-  words[layout.precision / 4] = options.precision === 'float' ? 1 : 0;
+  words[layout.order / 4] = how.order;
+  words[layout.constraints / 4] = how.constraints === 'hard' ? 1 : 0;
+  words[layout.precision / 4] = how.precision === 'float' ? 1 : 0;
   return at;
-}
-
-function unknown(what: string, value: unknown, known: readonly string[]): HandlebodyError {
-  return new HandlebodyError('invalid-option', {
-    message: `IRBF has no ${what} "${String(value)}".`,
-    remedy: `Use ${known.join(', ')}.`,
-    culprit: { kind: 'option', index: -1 },
-  });
 }

@@ -1,12 +1,29 @@
 import { LAYOUT } from './abi.generated.ts';
-import { checkMeshArrays } from './check-mesh.ts';
+import {
+  checkNames,
+  checkRoom,
+  flag,
+  indices,
+  list,
+  type Numbers,
+  named,
+  number,
+  numbers,
+  object,
+  optional,
+  options,
+  row,
+  told,
+  whole,
+} from './arguments.ts';
+import { bound } from './bound.ts';
 import { unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
+import { readMesh } from './mesh-arrays.ts';
 import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
@@ -87,34 +104,24 @@ export class Irbf {
     const irbf = this.#alive();
     const origin = this.#origin;
     const stored = heap.call((e) => e.hb_irbf_positions(irbf));
-    const points = new Float64Array(handles.length * 3);
-    const kinds = new Uint32Array(handles.length);
-    handles.forEach((handle, i) => {
-      kinds[i] = handle.kind === 'rotation' ? 1 : 0;
-      if ('at' in handle) {
-        points.set(handle.at, i * 3);
-        for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = (points[i * 3 + axis] ?? 0) - (origin?.[axis] ?? 0);
-        return;
-      }
-      if (!Number.isInteger(handle.vertex) || handle.vertex < 0 || handle.vertex >= this.vertexCount) {
-        throw new HandlebodyError('handle-out-of-range', {
-          message: `Handle ${i} sits on vertex ${handle.vertex}, but the mesh has ${this.vertexCount} vertices.`,
-          remedy: `Use a vertex number from 0 to ${this.vertexCount - 1}.`,
-          culprit: { kind: 'handle', index: i },
-        });
-      }
-      points.set(heap.f64(stored + 24 * handle.vertex, 3), i * 3);
+    const held = readHandles(handles, this.vertexCount);
+    const points = new Float64Array(held.length * 3);
+    const kinds = new Uint32Array(held.length);
+    held.forEach(({ vertex, at, kind }, i) => {
+      kinds[i] = kind === 'rotation' ? 1 : 0;
+      points.set(at ?? heap.f64(stored + 24 * (vertex as number), 3), i * 3);
+      if (at && origin) for (let axis = 0; axis < 3; axis++) points[i * 3 + axis] = (at[axis] as number) - (origin[axis] as number);
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
-      runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, held.length)));
     });
-    this.#handles = handles.length;
+    this.#handles = held.length;
     this.#kinds = kinds;
     this.#targets = heap
       .f64(
         heap.call((e) => e.hb_irbf_targets(irbf)),
-        handles.length * TARGET_SIZE,
+        held.length * TARGET_SIZE,
       )
       .slice();
     if (origin) shiftRows(this.#targets, origin, { stride: TARGET_SIZE, sign: 1 });
@@ -128,9 +135,13 @@ export class Irbf {
   solve(options: SolveOptions = {}): SolveReport {
     const heap = this.#heap;
     const irbf = this.#alive();
-    const maxIterations = options.maxIterations ?? SOLVE_DEFAULTS.maxIterations;
-    const tolerance = options.tolerance ?? SOLVE_DEFAULTS.tolerance;
-    const accelerate = options.accelerate ?? SOLVE_DEFAULTS.accelerate;
+    // Not by `options`, which makes an object: a frame allocates nothing.
+    checkNames(object(options, 'options', 'Give an object of options.'), SOLVE, 'options');
+    const { maxIterations = SOLVE_DEFAULTS.maxIterations, tolerance = SOLVE_DEFAULTS.tolerance } = options;
+    const { accelerate = SOLVE_DEFAULTS.accelerate } = options;
+    SOLVE.maxIterations(maxIterations, 'maxIterations');
+    SOLVE.tolerance(tolerance, 'tolerance');
+    SOLVE.accelerate(accelerate, 'accelerate');
     checkScales(this.#targets, this.#kinds, this.#body.normalization.diagonal);
     const targets = heap.call((e) => e.hb_irbf_targets(irbf));
     const given = heap.f64(targets, this.#targets.length);
@@ -154,20 +165,21 @@ export class Irbf {
    * The last `solve`, and how the present deformation treats volume and shape: on `tetrahedra` of the mesh's own vertices (m×4) or, without
    * them, on the voxels, six tetrahedra each. Takes some frames' time; the first call on voxels prepares them.
    */
-  report(tetrahedra: ArrayLike<number> = []): IrbfReport {
+  report(tetrahedra: Numbers = []): IrbfReport {
+    const given = indices(tetrahedra, 'tetrahedra', CORNERS, this.vertexCount);
     const heap = this.#heap;
     const irbf = this.#alive();
-    if (tetrahedra.length % 4 !== 0) {
+    if (given.length % 4 !== 0) {
       throw new HandlebodyError('invalid-shape', {
-        message: `The tetrahedra have ${tetrahedra.length} numbers, which is not a multiple of 4.`,
+        message: `The tetrahedra have ${given.length} numbers, which is not a multiple of 4.`,
         remedy: 'Give four vertex numbers for every tetrahedron.',
       });
     }
     return heap.scope((scratch) => {
       const layout = LAYOUT.hb_irbf_quality;
-      const corners = scratch.putU32(tetrahedra);
+      const corners = scratch.putU32(given);
       const out = scratch.reserve(layout.sizeof);
-      runKernel(heap, () => heap.check((e) => e.hb_irbf_measure(irbf, corners, tetrahedra.length / 4, out)));
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_measure(irbf, corners, given.length / 4, out)));
       const number = (offset: number) => heap.f64(out + offset, 1)[0] ?? 0;
       const word = (offset: number) => heap.u32(out + offset, 1)[0] ?? 0;
       return {
@@ -187,10 +199,9 @@ export class Irbf {
    * Normals to start from in `deform`, n×3: authored ones keep their creases. Without them normals are area-weighted averages of the
    * triangles around each welded vertex.
    */
-  setRestNormals(normals: TypedArray): void {
+  setRestNormals(normals: Numbers): void {
     this.#alive();
-    this.#checkLength('rest normals', normals.length);
-    this.#heap.f32(this.#restNormals, normals.length).set(normals);
+    this.#heap.f32(this.#restNormals, this.#length).set(row(normals, 'normals', this.#length));
     this.#hasRestNormals = true;
   }
 
@@ -202,12 +213,8 @@ export class Irbf {
   deform(positions: TypedArray, normals?: TypedArray): void {
     const heap = this.#heap;
     const irbf = this.#alive();
-    this.#checkLength('positions', positions.length);
-    checkFractions(positions);
-    if (normals) {
-      this.#checkLength('normals', normals.length);
-      checkFractions(normals);
-    }
+    checkRoom(positions, 'positions', this.#length);
+    if (normals !== undefined) checkRoom(normals, 'normals', this.#length);
     const rest = normals && this.#hasRestNormals ? this.#restNormals : 0;
     heap.check((e) => e.hb_irbf_deform(irbf, this.#positions, rest, normals ? this.#normals : 0));
     const [moved, turned] = [heap.f32(this.#positions, positions.length), normals && heap.f32(this.#normals, normals.length)];
@@ -218,26 +225,27 @@ export class Irbf {
   }
 
   /** The deformation at any points of space (k×3, model units), in double precision. */
-  evaluate<T extends TypedArray = Float64Array>(points: ArrayLike<number>, given?: T): T {
-    const out: TypedArray = given ?? new Float64Array(points.length);
-    checkFractions(out);
+  evaluate<T extends TypedArray = Float64Array>(points: Numbers, out?: T): T {
     const heap = this.#heap;
     const irbf = this.#alive();
-    if (points.length % 3 !== 0 || out.length !== points.length) {
+    const asked = numbers(points, 'points', ASKED);
+    if (asked.length % 3 !== 0) {
       throw new HandlebodyError('invalid-shape', {
-        message: `evaluate() got ${points.length} numbers in and room for ${out.length} out.`,
-        remedy: 'Give x, y and z for every point, and as much room for the result.',
+        message: `The "points" have ${asked.length} numbers, which is not a multiple of 3.`,
+        remedy: 'Give x, y and z for every point.',
       });
     }
+    if (out !== undefined) checkRoom(out, 'out', asked.length);
+    const result: TypedArray = out ?? new Float64Array(asked.length);
     heap.scope((scratch) => {
-      const [from, to] = [scratch.putF64(points), scratch.reserve(points.length * 8)];
-      if (this.#origin) shiftRows(heap.f64(from, points.length), this.#origin, { stride: 3, sign: -1 });
-      runKernel(heap, () => heap.check((e) => e.hb_irbf_evaluate(irbf, from, points.length / 3, to)));
-      const found = heap.f64(to, out.length);
+      const [from, to] = [scratch.putF64(asked), scratch.reserve(asked.length * 8)];
+      if (this.#origin) shiftRows(heap.f64(from, asked.length), this.#origin, { stride: 3, sign: -1 });
+      runKernel(heap, () => heap.check((e) => e.hb_irbf_evaluate(irbf, from, asked.length / 3, to)));
+      const found = heap.f64(to, asked.length);
       if (this.#origin) shiftRows(found, this.#origin, { stride: 3, sign: 1 });
-      out.set(found);
+      result.set(found);
     });
-    return out as T;
+    return result as T;
   }
 
   /**
@@ -258,7 +266,7 @@ export class Irbf {
       return heap.u32(out, 1)[0] ?? 0;
     });
     heap.kernels.share(this.#hostKernel);
-    return new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel);
+    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel));
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -287,23 +295,13 @@ export class Irbf {
       remedy: 'Make a new one with irbf(body).',
     });
   }
-
-  #checkLength(name: string, length: number): void {
-    const expected = this.#length;
-    if (length === expected) return;
-    throw new HandlebodyError('invalid-shape', {
-      message: `The ${name} have ${length} numbers, the mesh has ${expected}.`,
-      remedy: 'Give x, y and z for every vertex of the baked mesh, in its order.',
-    });
-  }
 }
 
 /** @internal See `Handlebody.irbf`. */
 export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf {
   const options = resolve(how);
   // What the hash is of is what is taken.
-  const body = { ...given, mesh: { ...given.mesh, positions: unshared(given.mesh.positions) } };
-  checkBody(body);
+  const body = readBody(given);
   const hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
   try {
     const irbf = runKernel(heap, () =>
@@ -370,14 +368,80 @@ function runKernel<T>(heap: Heap, call: () => T): T {
   }
 }
 
+const CORNERS = { kind: 'tetrahedron', width: 4 } as const;
+const ASKED = { code: 'query-not-finite', kind: 'query', width: 3 } as const;
+
+const SOLVE = {
+  maxIterations: whole(0, 0xffff_ffff),
+  tolerance: number('a number from 0 on', (x) => x >= 0),
+  accelerate: flag,
+};
+
+/** Where handles sit, checked: a vertex or a place. */
+function readHandles(given: unknown, vertexCount: number) {
+  return list(given, 'handles', 'handles, such as { vertex: 0 } or { at: [x, y, z] }', (handle, name, index) => {
+    const culprit = { kind: 'handle', index } as const;
+    const readers = {
+      vertex: optional((vertex: unknown) => {
+        if (Number.isInteger(vertex) && (vertex as number) >= 0 && (vertex as number) < vertexCount) return vertex as number;
+        throw new HandlebodyError('handle-out-of-range', {
+          message: `Handle ${index} sits on vertex ${told(vertex)}, but the mesh has ${vertexCount} vertices.`,
+          remedy: `Use a vertex number from 0 to ${vertexCount - 1}.`,
+          culprit,
+        });
+      }),
+      at: optional((at, key) => row(at, `${name}.${key}`, 3, { ...culprit, code: 'handle-not-finite' })),
+      kind: named(['position', 'rotation']),
+    };
+    const read = options(handle, readers, { kind: 'position' }, name);
+    if ((read.vertex === undefined) !== (read.at === undefined)) return read;
+    throw new HandlebodyError('invalid-option', {
+      message: `The "${name}" has ${read.at ? 'a vertex and a place' : 'neither a vertex nor a place'}.`,
+      remedy: 'Give each handle one of { vertex } and { at: [x, y, z] }.',
+      culprit,
+    });
+  });
+}
+
+/** A body as it may be written into the solver's memory. What the hash is of is what is taken: positions are copied where others could write. */
+function readBody(given: unknown): BodyData {
+  const body = object(given, 'body', 'Give what bake() made, or a reader of baked files.') as unknown as BodyData;
+  const { positions, triangles, ...mesh } = readMesh(body.mesh, 'body.mesh');
+  const { center, diagonal } = object(body.normalization, 'body.normalization', BAKE_AGAIN) as unknown as BodyData['normalization'];
+  const { origin, spacing, dimensions } = object(body.grid, 'body.grid', BAKE_AGAIN) as unknown as BodyData['grid'];
+  const read: BodyData = {
+    ...body,
+    mesh: { ...mesh, positions: unshared(positions) as TypedArray, triangles: triangles as TypedArray },
+    normalization: {
+      center: row(center, 'body.normalization.center', 3, BODY) as unknown as Vec3,
+      diagonal: bodyNumber(diagonal, 'body.normalization.diagonal'),
+    },
+    grid: {
+      origin: row(origin, 'body.grid.origin', 3, BODY) as unknown as Vec3,
+      spacing: bodyNumber(spacing, 'body.grid.spacing'),
+      dimensions: indices(row(dimensions, 'body.grid.dimensions', 3, BODY), 'body.grid.dimensions', BODY) as unknown as Vec3,
+    },
+    voxels: indices(body.voxels, 'body.voxels', BODY) as Uint32Array,
+    centers: indices(body.centers, 'body.centers', { kind: 'center', code: 'body-invalid' }) as Uint32Array,
+    distances: indices(body.distances, 'body.distances', BODY, 2 ** 16) as Uint16Array,
+    distanceScale: bodyNumber(body.distanceScale, 'body.distanceScale'),
+    spheres: numbers(body.spheres, 'body.spheres', BODY) as Float64Array,
+  };
+  checkBody(read);
+  return read;
+}
+
+const bodyNumber = number('a finite number, as bake() does', Number.isFinite, 'body-invalid');
+const BODY = { code: 'body-invalid' } as const;
+const BAKE_AGAIN = 'Bake the model again.';
+
 /** Contradictions that must be found before the arrays are copied: lengths, and a mesh changed since baking. */
 function checkBody(body: BodyData): void {
-  checkMeshArrays(body.mesh);
   const expected = body.centers.length * body.voxels.length;
   if (body.distances.length !== expected || body.spheres.length % 4 !== 0) {
     throw new HandlebodyError('body-invalid', {
       message: `The baked body has ${body.distances.length} distances, but ${body.centers.length} centers × ${body.voxels.length} voxels need ${expected}.`,
-      remedy: 'Bake the model again.',
+      remedy: BAKE_AGAIN,
     });
   }
   if (hashPositions(body.mesh.positions) !== body.positionsHash) {

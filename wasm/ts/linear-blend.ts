@@ -1,5 +1,6 @@
+import { flag, options, type Readers } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { BlendedSkin, SKIN_DEFAULTS, type SkinOptions } from './skin.ts';
+import { BlendedSkin, SKIN_DEFAULTS, SKIN_READERS, type SkinOptions } from './skin.ts';
 
 export interface LinearBlendOptions extends SkinOptions {
   /** Multiplies positions and weights into one matrix beforehand: the same result, more memory. */
@@ -7,6 +8,8 @@ export interface LinearBlendOptions extends SkinOptions {
 }
 
 export const LINEAR_BLEND_DEFAULTS = { ...SKIN_DEFAULTS, compiled: false } as const;
+
+const READERS = { ...SKIN_READERS, compiled: flag } satisfies Readers<LinearBlendOptions>;
 
 /**
  * Linear blend skinning: uᵢ = Σⱼ wᵢⱼ Tⱼ [vᵢ; 1]. A motion that all handles share is the shape's, since a vertex's weights are made to
@@ -20,9 +23,10 @@ export const LINEAR_BLEND_DEFAULTS = { ...SKIN_DEFAULTS, compiled: false } as co
  */
 export class LinearBlend extends BlendedSkin {
   /** @internal Use `Handlebody.linearBlend`. */
-  constructor(heap: Heap, options: LinearBlendOptions) {
-    const compiled = (options.compiled ?? LINEAR_BLEND_DEFAULTS.compiled) ? 1 : 0;
-    super(heap, options, (e, out, { positions, count, dimension, weights, handleCount }) =>
+  constructor(heap: Heap, given: LinearBlendOptions) {
+    const read = options(given, READERS, LINEAR_BLEND_DEFAULTS);
+    const compiled = read.compiled ? 1 : 0;
+    super(heap, read, (e, out, { positions, count, dimension, weights, handleCount }) =>
       e.hb_linear_blend_create(positions, count, dimension, weights, handleCount, compiled, out),
     );
   }

@@ -1,4 +1,5 @@
 import type { Exports, RuntimeExports } from './abi.generated.ts';
+import { optional, options, type Read, type Reader, type Readers, refused, signal } from './arguments.ts';
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
@@ -9,6 +10,19 @@ export interface LoadOptions {
   /** The wasm to use instead of the one inside: compiled, as bytes, or where to fetch it. */
   readonly wasm?: WebAssembly.Module | BufferSource | URL;
   readonly signal?: AbortSignal;
+}
+
+const source: Reader<WebAssembly.Module | BufferSource | URL> = (value, name) => {
+  if (value instanceof URL || value instanceof ArrayBuffer || ArrayBuffer.isView(value)) return value as URL | BufferSource;
+  if (typeof WebAssembly !== 'object' || value instanceof WebAssembly.Module) return value as WebAssembly.Module;
+  throw refused(name, value, 'Give a URL, as by new URL(file, import.meta.url), or the bytes of the file, or its module.');
+};
+
+const READERS = { wasm: optional(source), signal: optional(signal) } satisfies Readers<LoadOptions>;
+
+/** How every `load` reads its options. */
+export function readLoadOptions(given: LoadOptions): Read<typeof READERS> {
+  return options(given, READERS);
 }
 
 /** The two links of the solver by their files, and what each exports. */
@@ -22,7 +36,7 @@ export type Link = keyof Links;
 /** Instantiates one of the two links from a module, bytes or a URL. Every entry ends here. */
 export async function instantiate<L extends Link>(
   link: L,
-  source: WebAssembly.Module | BufferSource | URL,
+  from: WebAssembly.Module | BufferSource | URL,
   signal?: AbortSignal,
 ): Promise<Heap<Links[L]>> {
   throwIfAborted(signal);
@@ -30,7 +44,7 @@ export async function instantiate<L extends Link>(
   let exports: Links[L];
   const kernels = new HostKernels();
   try {
-    const bytes = source instanceof URL ? await fetchBytes(source, signal) : source;
+    const bytes = from instanceof URL ? await fetchBytes(from, signal) : from;
     const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
     const instance = await WebAssembly.instantiate(module, imports(module, kernels));
     exports = instance.exports as unknown as Links[L];
@@ -39,7 +53,7 @@ export async function instantiate<L extends Link>(
     if (cause instanceof HandlebodyError) throw cause;
     throwIfAborted(signal);
     throw new HandlebodyError('wasm-unavailable', {
-      message: `The solver's WebAssembly could not be started: ${cause instanceof Error ? cause.message : String(cause)}`,
+      message: `The solver's wasm could not be started: ${cause instanceof Error ? cause.message : String(cause)}`,
       remedy:
         "Use a current browser; a content security policy needs 'wasm-unsafe-eval'. Check that the file is this version's own.",
       cause,

@@ -1,9 +1,10 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import { type Numbers, numbers, options as readOptions } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
-import type { MeshOptions } from './mesh-warnings.ts';
+import { MESH_READERS, type MeshOptions } from './mesh-warnings.ts';
 import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
-import { SoundMesh } from './sound-mesh.ts';
+import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import { putHeld, resolveHandles, type WeightHandle } from './weight-handles.ts';
 import { WEIGHT_REQUIREMENTS } from './weight-requirements.ts';
 
@@ -42,12 +43,13 @@ export function measureWeights(
   heap: Heap<Exports>,
   mesh: SimplexMesh,
   handles: readonly WeightHandle[],
-  weights: ArrayLike<number>,
+  given: Numbers,
   options: MeshOptions = {},
 ): WeightMeasures {
-  const made = new SoundMesh(heap, mesh, options);
+  const made = new SoundMesh(heap, mesh, readOptions(options, MESH_READERS, MESH_DEFAULTS));
+  const weights = numbers(given, 'weights', { code: 'value-not-finite', kind: 'vertex', finite: false });
   const { held: vertices } = resolveHandles(made, handles, true);
-  const count = handles.length;
+  const count = vertices.length;
   if (count === 0 || weights.length !== count * made.vertexCount) {
     throw new HandlebodyError('invalid-shape', {
       message: `${weights.length} weights are not one for each of ${made.vertexCount} vertices and ${count} handles.`,
@@ -58,11 +60,11 @@ export function measureWeights(
   const measures = heap.scope((scratch) => {
     const shape = putMesh(heap, scratch, made.sound);
     const held = putHeld(heap, scratch, vertices);
-    const given = scratch.putF64(copies.first);
+    const rows = scratch.putF64(copies.first);
     const support = scratch.reserve(8 * count);
     const layout = LAYOUT.hb_weight_measures;
     const out = scratch.reserve(layout.sizeof);
-    heap.check((e) => e.hb_measure_weights(shape, held, given, support, out));
+    heap.check((e) => e.hb_measure_weights(shape, held, rows, support, out));
     const number = (offset: number) => heap.f64(out + offset, 1)[0] as number;
     return {
       gradientJump: number(layout.gradient_jump),

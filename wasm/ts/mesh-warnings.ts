@@ -1,3 +1,4 @@
+import { callback, flag, optional, type Readers } from './arguments.ts';
 import type { Culprit } from './errors.ts';
 
 /**
@@ -31,6 +32,9 @@ export interface MeshOptions {
   /** Called for each warning: something was passed over that does not change the shape. */
   readonly onWarning?: (warning: MeshWarning) => void;
 }
+
+/** @internal */
+export const MESH_READERS = { weld: flag, strict: flag, onWarning: optional(callback) } satisfies Readers<MeshOptions>;
 
 /** How many of a kind, and the first. */
 interface LeftOut {

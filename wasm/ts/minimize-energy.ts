@@ -1,7 +1,9 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import { checkRoom, named, options, type Readers, told, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
-import type { MeshOptions } from './mesh-warnings.ts';
+import { meshLike } from './mesh-arrays.ts';
+import { MESH_READERS, type MeshOptions } from './mesh-warnings.ts';
 import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { Skin } from './skin.ts';
 import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
@@ -37,6 +39,8 @@ export interface MinimizeEnergyReport {
 
 const ENERGIES: readonly DeformationEnergy[] = ['dirichlet', 'laplacian', 'conformal', 'rigid'];
 
+const READERS = { ...MESH_READERS, energy: named(ENERGIES), iterations: whole(1, 1e6) } satisfies Readers<MinimizeEnergyOptions>;
+
 /**
  * The deformation of triangles in the plane that minimizes an energy while the handles hold their vertices where their transforms take
  * them; a handle of one vertex also holds the vertices next to it (lecture, "Energy-based Deformation"). Parts without a handle move as a
@@ -64,24 +68,22 @@ export class EnergyMinimizer extends Skin {
   readonly #report: number;
 
   /** @internal Use `Handlebody.minimizeEnergy`. */
-  constructor(heap: Heap<Exports>, mesh: SimplexMesh, handles: readonly WeightHandle[], options: MinimizeEnergyOptions) {
-    const { energy, iterations } = { ...MINIMIZE_ENERGY_DEFAULTS, ...options };
+  constructor(heap: Heap<Exports>, mesh: SimplexMesh, handles: readonly WeightHandle[], given: MinimizeEnergyOptions) {
+    const read = options(given, READERS, MINIMIZE_ENERGY_DEFAULTS);
+    const { energy, iterations } = read;
     const number = ENERGIES.indexOf(energy);
-    if (number === -1) throw badOption(`There is no energy called "${energy}".`, `Use one of: ${ENERGIES.join(', ')}.`);
-    if (!Number.isInteger(iterations) || iterations < 1 || iterations > 1e6)
-      throw badOption(`${iterations} iterations cannot be taken.`, 'Use a whole number, 1 or more.');
-    const dimension = mesh.dimension ?? 3;
+    const { dimension = 3 } = meshLike(mesh, 'mesh');
     if (dimension !== 2) {
       throw new HandlebodyError('invalid-shape', {
-        message: `Energies are minimized in the plane; the mesh has ${dimension} dimensions.`,
+        message: `Energies are minimized in the plane; the mesh has ${told(dimension)} dimensions.`,
         remedy: 'Give two coordinates a vertex, and dimension: 2.',
       });
     }
-    const made = new SoundMesh(heap, mesh, options);
+    const made = new SoundMesh(heap, mesh, read);
     const { held: places, vertices } = resolveHandles(made, handles, false);
     super(
       heap,
-      { dimension: 2, vertexCount: made.vertexCount, handleCount: handles.length },
+      { dimension: 2, vertexCount: made.vertexCount, handleCount: places.length },
       (out, [shape = 0, held = 0]) => heap.check((e) => e.hb_minimizer_create(shape, held, number, out)),
       (scratch) => [putMesh(heap, scratch, made.sound), putHeld(heap, scratch, places)],
     );
@@ -92,7 +94,7 @@ export class EnergyMinimizer extends Skin {
     const rest = made.rows(Float64Array.from(made.sound.positions), 2);
     this.#offsets = Float64Array.from({ length: 2 * made.flatVertices.length }, (_, i) => {
       const at = 2 * (made.flatVertices[i >> 1]?.vertex ?? 0) + (i % 2);
-      return (mesh.positions[at] as number) - (rest[at] as number);
+      return (made.given.positions[at] as number) - (rest[at] as number);
     });
     this.#iterations = iterations;
     this.#report = heap.alloc(LAYOUT.hb_minimizer_report.sizeof);
@@ -101,6 +103,7 @@ export class EnergyMinimizer extends Skin {
   /** Writes the deformed positions, n×2. Allocates nothing but the report. */
   deform(out: TypedArray): MinimizeEnergyReport {
     const { heap } = this;
+    checkRoom(out, 'out', 2 * this.vertexCount);
     this.move(out, (skin, to) => {
       heap.check((e) => e.hb_minimizer_deform(skin, this.#iterations, to, this.#report));
       if (!this.#mesh.isGiven) this.#spread(heap.f32(to, 2 * this.vertexCount));
@@ -133,8 +136,4 @@ export class EnergyMinimizer extends Skin {
     if (!this.disposed) this.heap.free(this.#report);
     super.dispose();
   }
-}
-
-function badOption(message: string, remedy: string): HandlebodyError {
-  return new HandlebodyError('invalid-option', { message, remedy, culprit: { kind: 'option', index: -1 } });
 }

@@ -1,7 +1,7 @@
 import { LAYOUT } from './abi.generated.ts';
-import { HandlebodyError } from './errors.ts';
+import { named, notNegative, options, positive, type Readers, whole } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { Interpolant, type ScatteredData } from './interpolant.ts';
+import { Interpolant, SCATTERED, type ScatteredData } from './interpolant.ts';
 
 /** `inverse-distance`: (r + ε)⁻ᵖ. `gaussian`: exp(−(r/h)²). `wendland`: (1 − r/h)⁴₊ (4r/h + 1), nothing beyond h. */
 export type MovingWeight = 'inverse-distance' | 'gaussian' | 'wendland';
@@ -30,7 +30,16 @@ export const MOVING_LEAST_SQUARES_DEFAULTS = {
   width: 'auto',
 } as const;
 
-const WEIGHTS: Record<MovingWeight, number> = { 'inverse-distance': 0, gaussian: 1, wendland: 2 };
+const WEIGHTS: readonly MovingWeight[] = ['inverse-distance', 'gaussian', 'wendland'];
+
+const READERS = {
+  ...SCATTERED,
+  degree: whole(0, 2),
+  weight: named(WEIGHTS),
+  power: positive,
+  epsilon: notNegative,
+  width: named(['auto'], positive, 'a positive number'),
+} satisfies Readers<MovingLeastSquaresOptions>;
 
 /**
  * Moving least squares (Lancaster and Salkauskas 1981): the value at x is that of a polynomial fitted to all points by weights that fall
@@ -49,18 +58,13 @@ export class MovingLeastSquares extends Interpolant {
   readonly width: number;
 
   /** @internal Use `Handlebody.movingLeastSquares`. */
-  constructor(heap: Heap, options: MovingLeastSquaresOptions) {
-    const { degree, weight, power, epsilon, width } = { ...MOVING_LEAST_SQUARES_DEFAULTS, ...options };
-    if (!Object.hasOwn(WEIGHTS, weight)) throw wrong(`There is no weight called "${weight}".`, Object.keys(WEIGHTS).join(', '));
-    if (degree !== 0 && degree !== 1 && degree !== 2) throw wrong(`The degree ${degree} is not 0, 1 or 2.`, '0, 1 or 2');
-    // The solver reads 0 as "automatic", which nobody who writes 0 means.
-    if (width !== 'auto' && !(typeof width === 'number' && width > 0))
-      throw wrong(`The width ${width} is not a positive number.`, "a number in units of the points, or 'auto'");
+  constructor(heap: Heap, given: MovingLeastSquaresOptions) {
+    const { degree, weight, power, epsilon, width, ...data } = options(given, READERS, MOVING_LEAST_SQUARES_DEFAULTS);
     const layout = LAYOUT.hb_moving_least_squares_options;
     let used = 0;
     super(
       heap,
-      options,
+      data,
       (e, { points, values, count, dimension, outputs, out }, how) => {
         const usedAt = how + layout.sizeof;
         const status = e.hb_moving_least_squares_create(points, values, count, dimension, outputs, how, usedAt, out);
@@ -75,14 +79,10 @@ export class MovingLeastSquares extends Interpolant {
         doubles[layout.width / 8] = width === 'auto' ? 0 : width;
         const words = heap.u32(at, layout.sizeof / 4);
         words[layout.degree / 4] = degree;
-        words[layout.weight / 4] = WEIGHTS[weight];
+        words[layout.weight / 4] = WEIGHTS.indexOf(weight);
         return at;
       },
     );
     this.width = used;
   }
-}
-
-function wrong(message: string, use: string): HandlebodyError {
-  return new HandlebodyError('invalid-option', { message, remedy: `Use ${use}.`, culprit: { kind: 'option', index: -1 } });
 }

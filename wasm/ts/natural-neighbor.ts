@@ -1,6 +1,7 @@
+import { options, type Readers } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { Interpolant, type ScatteredData } from './interpolant.ts';
-import { type OutsideHull, outsideNumber } from './outside-hull.ts';
+import { Interpolant, SCATTERED, type ScatteredData } from './interpolant.ts';
+import { OUTSIDE, type OutsideHull, outsideHull } from './outside-hull.ts';
 
 export interface NaturalNeighborOptions extends ScatteredData {
   /** Outside the convex hull: the value at the nearest point of the hull, or NaN. */
@@ -8,6 +9,8 @@ export interface NaturalNeighborOptions extends ScatteredData {
 }
 
 export const NATURAL_NEIGHBOR_DEFAULTS = { outside: 'nearest' } as const satisfies Partial<NaturalNeighborOptions>;
+
+const READERS = { ...SCATTERED, outside: outsideHull } satisfies Readers<NaturalNeighborOptions>;
 
 /**
  * Natural neighbor interpolation in the plane (Sibson 1981): a query weighs every point by the area that the query's Voronoi cell would
@@ -21,10 +24,10 @@ export const NATURAL_NEIGHBOR_DEFAULTS = { outside: 'nearest' } as const satisfi
  */
 export class NaturalNeighbor extends Interpolant {
   /** @internal Use `Handlebody.naturalNeighbor`. */
-  constructor(heap: Heap, options: NaturalNeighborOptions) {
-    const { outside } = { ...NATURAL_NEIGHBOR_DEFAULTS, ...options };
-    const rule = outsideNumber(outside);
-    super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>
+  constructor(heap: Heap, given: NaturalNeighborOptions) {
+    const { outside, ...data } = options(given, READERS, NATURAL_NEIGHBOR_DEFAULTS);
+    const rule = OUTSIDE.indexOf(outside);
+    super(heap, data, (e, { points, values, count, dimension, outputs, out }) =>
       e.hb_natural_neighbor_create(points, values, count, dimension, outputs, rule, out),
     );
   }

@@ -1,13 +1,12 @@
 import { LAYOUT } from './abi.generated.ts';
-import { HandlebodyError } from './errors.ts';
+import { named, notNegative, options, positive, type Readers, whole } from './arguments.ts';
 import type { Heap } from './heap.ts';
 import { checkShapes } from './interpolant.ts';
-import { type RbfOptions, resolve, writeOptions } from './rbf-options.ts';
+import { RBF_DEFAULTS, RBF_READERS, type RbfOptions, resolve, writeOptions } from './rbf-options.ts';
 
 export type OutlierMethod = 'row-sum' | 'leave-one-out' | 'residual';
 
-export interface OutlierOptions
-  extends Omit<RbfOptions, 'weightDecay' | 'normalized' | 'centers' | 'robust' | 'smoothing' | 'onWarning'> {
+export interface OutlierOptions extends Omit<RbfOptions, 'weightDecay' | 'normalized' | 'centers' | 'robust' | 'smoothing'> {
   /**
    * `'residual'`: the distance of the value from the smoothed interpolant. `'leave-one-out'`: what the function norm wᵀRw loses without the
    * point, exactly. `'row-sum'`: the point's row of that norm, which only approximates it (2014 course, §5.3) and may name a neighbor.
@@ -25,6 +24,15 @@ export const OUTLIER_DEFAULTS = { method: 'residual', smoothing: 'auto', thresho
 
 const METHODS: readonly OutlierMethod[] = ['row-sum', 'leave-one-out', 'residual'];
 
+const { weightDecay, normalized, centers, robust, ...FIT } = RBF_READERS;
+const READERS = {
+  ...FIT,
+  method: named(METHODS),
+  smoothing: named(['auto'], notNegative, 'a number from 0 on'),
+  threshold: positive,
+  most: whole(0, 0xffff_ffff),
+} satisfies Readers<OutlierOptions>;
+
 /** The same report whatever the method. */
 export interface OutlierReport {
   readonly method: OutlierMethod;
@@ -40,31 +48,18 @@ export interface OutlierReport {
 }
 
 /** Looks for points that an interpolant has to bend for, one after another: after each the fit is made again without it. */
-export function findOutliers(heap: Heap, options: OutlierOptions): OutlierReport {
-  const { method, smoothing, threshold, most } = { ...OUTLIER_DEFAULTS, ...options };
-  const number = METHODS.indexOf(method);
-  if (number === -1) {
-    throw new HandlebodyError('invalid-option', {
-      message: `There is no outlier method called "${method}".`,
-      remedy: `Use one of: ${METHODS.join(', ')}.`,
-      culprit: { kind: 'option', index: -1 },
-    });
-  }
-  if (!Number.isInteger(most) || most < 0) {
-    throw new HandlebodyError('invalid-option', {
-      message: `The most outliers to look for are ${most}.`,
-      remedy: 'Give a whole number.',
-      culprit: { kind: 'option', index: -1 },
-    });
-  }
-  const { count, outputs } = checkShapes(options);
-  const { smoothing: _, ...rest } = options;
-  const resolved = resolve(heap, rest);
+export function findOutliers(heap: Heap, given: OutlierOptions): OutlierReport {
+  const read = options(given, READERS, { ...RBF_DEFAULTS, ...OUTLIER_DEFAULTS });
+  const { method, smoothing, threshold, points, values, dimension } = read;
+  const { count, outputs } = checkShapes(read);
+  // No more can be found than there are.
+  const most = Math.min(read.most, count);
+  const resolved = resolve(heap, { ...RBF_DEFAULTS, ...read, smoothing: 0, centers: undefined, robust: undefined });
   try {
     return heap.scope((scratch) => {
       const at = writeOptions(heap, scratch, { ...resolved, smoothing: smoothing === 'auto' ? -1 : smoothing });
-      const points = scratch.putF64(options.points);
-      const values = scratch.putF64(options.values);
+      const pointsAt = scratch.putF64(points);
+      const valuesAt = scratch.putF64(values);
       const scores = scratch.reserve(8 * count);
       const outliers = scratch.reserve(4 * most);
       const heights = scratch.reserve(8 * most);
@@ -72,12 +67,12 @@ export function findOutliers(heap: Heap, options: OutlierOptions): OutlierReport
       const search = scratch.reserve(layout.sizeof);
       heap.f64(search + layout.threshold, 1)[0] = threshold;
       const words = heap.u32(search, layout.sizeof / 4);
-      words[layout.method / 4] = number;
+      words[layout.method / 4] = METHODS.indexOf(method);
       words[layout.most / 4] = most;
       words[layout.scores / 4] = scores;
       words[layout.outliers / 4] = outliers;
       words[layout.heights / 4] = heights;
-      heap.check((e) => e.hb_find_outliers(points, values, count, options.dimension, outputs, at, search));
+      heap.check((e) => e.hb_find_outliers(pointsAt, valuesAt, count, dimension, outputs, at, search));
       const length = heap.u32(search + layout.outlier_count, 1)[0] as number;
       return {
         method,

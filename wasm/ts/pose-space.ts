@@ -1,5 +1,18 @@
+import {
+  checkRoom,
+  list,
+  named,
+  numbers,
+  options,
+  positive,
+  type Read,
+  type Readers,
+  row,
+  text,
+  type Vector,
+  whole,
+} from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
 import type { TypedArray } from './types.ts';
 
@@ -43,16 +56,17 @@ export interface PoseSpaceOptions {
  */
 export const POSE_SPACE_DEFAULTS = { method: 'cardinal', kernel: 'auto', width: 'auto', degree: 'auto' } as const;
 
-const METHODS: Record<PoseSpaceMethod, number> = { cardinal: 0, normalized: 1 };
-const KERNELS: Record<PoseSpaceKernel, number> = {
-  linear: 0,
-  cubic: 1,
-  'thin-plate': 2,
-  gaussian: 3,
-  multiquadric: 4,
-  'inverse-multiquadric': 5,
-  'inverse-quadratic': 6,
-};
+/** By the solver's numbers. */
+const METHODS: readonly PoseSpaceMethod[] = ['cardinal', 'normalized'];
+const KERNELS: readonly PoseSpaceKernel[] = [
+  'linear',
+  'cubic',
+  'thin-plate',
+  'gaussian',
+  'multiquadric',
+  'inverse-multiquadric',
+  'inverse-quadratic',
+];
 const NEEDS_LINEAR_TAIL: readonly PoseSpaceKernel[] = ['cubic', 'thin-plate'];
 
 /** Places closer than this part of their bounding box's diagonal count as one: the solver's own rule. */
@@ -92,10 +106,10 @@ export class PoseSpace {
   #space: number;
 
   /** @internal Use `Handlebody.poseSpace`. */
-  constructor(heap: Heap, options: PoseSpaceOptions) {
-    const { method, kernel, width, degree } = resolveOptions(options);
-    const { dimensions, examples } = options;
-    checkExamples(dimensions, examples);
+  constructor(heap: Heap, given: PoseSpaceOptions) {
+    const { dimensions, examples, ...how } = options(given, READERS, POSE_SPACE_DEFAULTS);
+    const { method, kernel, width, degree } = resolve(how);
+    checkShapes(examples);
     const { kept, merged } = mergeDuplicates(examples, dimensions.length);
     const count = kept.length;
 
@@ -129,40 +143,28 @@ export class PoseSpace {
   }
 
   /** The examples' weights at a point of the pose space, in the order of `names`. They sum to 1 and may be slightly negative. */
-  weights<T extends TypedArray = Float64Array>(at: ArrayLike<number>, given?: T): T {
-    const out: TypedArray = given ?? new Float64Array(this.names.length);
-    checkFractions(out);
-    if (out.length !== this.names.length) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `weights() got room for ${out.length} numbers; there are ${this.names.length} examples.`,
-        remedy: 'Give one number an example, or leave it out.',
-      });
-    }
+  weights<T extends TypedArray = Float64Array>(at: ArrayLike<number> | Vector, out?: T): T {
     this.#solve(at);
-    out.set(this.#weights);
-    return out as T;
+    if (out !== undefined) checkRoom(out, 'out', this.names.length);
+    const result: TypedArray = out ?? new Float64Array(this.names.length);
+    result.set(this.#weights);
+    return result as T;
   }
 
   /** The shape at a point of the pose space: the sum of the examples' shapes by their weights. */
-  evaluate<T extends TypedArray = Float64Array>(at: ArrayLike<number>, given?: T): T {
-    const out: TypedArray = given ?? new Float64Array(this.shapeLength);
-    checkFractions(out);
-    if (out.length !== this.shapeLength) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `evaluate() got room for ${out.length} numbers; the shapes have ${this.shapeLength}.`,
-        remedy: "Give as many numbers as an example's shape has, or leave it out.",
-      });
-    }
+  evaluate<T extends TypedArray = Float64Array>(at: ArrayLike<number> | Vector, out?: T): T {
     this.#solve(at);
+    if (out !== undefined) checkRoom(out, 'out', this.shapeLength);
+    const result: TypedArray = out ?? new Float64Array(this.shapeLength);
     const weights = this.#weights;
     const shapes = this.#shapes;
     const count = weights.length;
-    for (let i = 0, s = 0; i < out.length; i++) {
+    for (let i = 0, s = 0; i < result.length; i++) {
       let sum = 0;
       for (let k = 0; k < count; k++, s++) sum += (weights[k] as number) * (shapes[s] as number);
-      out[i] = sum;
+      result[i] = sum;
     }
-    return out as T;
+    return result as T;
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -180,7 +182,7 @@ export class PoseSpace {
   }
 
   /** Computes the weights at `at` into `#weights`. */
-  #solve(at: ArrayLike<number>): void {
+  #solve(given: ArrayLike<number> | Vector): void {
     const space = this.#space;
     if (space === 0) {
       throw new HandlebodyError('disposed', {
@@ -188,9 +190,10 @@ export class PoseSpace {
         remedy: 'Make a new one with poseSpace(options).',
       });
     }
+    const at = numbers(given, 'at', QUERY);
     if (at.length !== this.dimensions.length) {
       throw new HandlebodyError('invalid-shape', {
-        message: `The point has ${at.length} coordinates; the pose space has ${this.dimensions.length} (${this.dimensions.join(', ')}).`,
+        message: `The "at" has ${at.length} coordinates; the pose space has ${this.dimensions.length} (${this.dimensions.join(', ')}).`,
         remedy: 'Give one coordinate a dimension.',
       });
     }
@@ -200,45 +203,54 @@ export class PoseSpace {
   }
 }
 
-/** The options as the solver's numbers. */
-function resolveOptions(options: PoseSpaceOptions): { method: number; kernel: number; width: number; degree: number } {
-  const { method, kernel, width, degree } = { ...POSE_SPACE_DEFAULTS, ...options };
-  if (!Object.hasOwn(METHODS, method)) throw unknownOption('method', method, Object.keys(METHODS));
-  const chosen = kernel !== 'auto' ? kernel : method === 'cardinal' ? 'multiquadric' : 'inverse-multiquadric';
-  if (!Object.hasOwn(KERNELS, chosen)) throw unknownOption('kernel', chosen, Object.keys(KERNELS));
-  // The solver reads 0 as "automatic", which nobody who writes 0 means.
-  if (width !== 'auto' && !(typeof width === 'number' && width > 0 && width < Number.POSITIVE_INFINITY)) {
-    throw new HandlebodyError('invalid-option', {
-      message: `The width ${width} is not a positive finite number.`,
-      remedy: "Give it in units of the dimensions, or 'auto' to have it chosen.",
-      culprit: { kind: 'option', index: -1 },
+const QUERY = { code: 'query-not-finite', kind: 'query', index: 0 } as const;
+
+const READERS = {
+  dimensions: (value, name) => {
+    const dimensions = list(value, name, 'names of dimensions', (each, label) => text(each, label));
+    if (dimensions.length > 0) return dimensions;
+    throw new HandlebodyError('invalid-shape', {
+      message: 'The pose space has no dimensions.',
+      remedy: "Name at least one, such as ['valence', 'arousal'].",
     });
-  }
-  if (degree !== 'auto' && !(degree === -1 || degree === 0 || degree === 1)) throw unknownOption('degree', degree, ['0', '1']);
+  },
+  examples: (value, name, { dimensions } = {}) =>
+    list(value, name, 'examples, each { name, at, shape }', (example, label, index) =>
+      readExample(example, label, index, (dimensions as readonly string[]).length),
+    ),
+  method: named(METHODS),
+  kernel: named(['auto', ...KERNELS]),
+  // The solver reads 0 as "automatic", which nobody who writes 0 means.
+  width: named(['auto'], positive, 'a positive number'),
+  degree: named(['auto'], whole(-1, 1), 'a whole number from −1 to 1'),
+} satisfies Readers<PoseSpaceOptions>;
+
+/** The options as the solver's numbers. */
+function resolve({ method, kernel, width, degree }: Omit<Read<typeof READERS>, 'dimensions' | 'examples'>) {
+  const chosen = kernel !== 'auto' ? kernel : method === 'cardinal' ? 'multiquadric' : 'inverse-multiquadric';
   const lowest = method === 'normalized' ? -1 : NEEDS_LINEAR_TAIL.includes(chosen) ? 1 : 0;
   return {
-    method: METHODS[method],
-    kernel: KERNELS[chosen],
+    method: METHODS.indexOf(method),
+    kernel: KERNELS.indexOf(chosen),
     width: width === 'auto' ? 0 : width,
     degree: degree === 'auto' ? lowest : degree,
   };
 }
 
-function unknownOption(option: string, value: unknown, known: readonly string[]): HandlebodyError {
-  return new HandlebodyError('invalid-option', {
-    message: `A pose space has no ${option} called "${value}".`,
-    remedy: `Use one of: ${known.join(', ')}.`,
-    culprit: { kind: 'option', index: -1 },
-  });
+/** An example with its numbers checked, as they are used. */
+type ReadExample = ReturnType<typeof readExample>;
+
+function readExample(given: unknown, label: string, index: number, dimension: number) {
+  const rule = { code: 'example-not-finite', kind: 'example', index } as const;
+  const readers = {
+    name: text,
+    at: (value, key, read) => row(value, `${label}.${key}`, dimension, { ...rule, called: read?.name as string }),
+    shape: (value, key, read) => numbers(value, `${label}.${key}`, { ...rule, called: read?.name as string }),
+  } satisfies Readers<PoseExample>;
+  return options(given, readers, {}, label);
 }
 
-function checkExamples(dimensions: readonly string[], examples: readonly PoseExample[]): void {
-  if (dimensions.length === 0) {
-    throw new HandlebodyError('invalid-shape', {
-      message: 'The pose space has no dimensions.',
-      remedy: "Name at least one, such as ['valence', 'arousal'].",
-    });
-  }
+function checkShapes(examples: readonly ReadExample[]): void {
   const first = examples[0];
   if (!first) {
     throw new HandlebodyError('examples-too-few', {
@@ -246,41 +258,18 @@ function checkExamples(dimensions: readonly string[], examples: readonly PoseExa
       remedy: 'Give one or more, each with a name, a place and a shape.',
     });
   }
-  examples.forEach(({ name, at, shape }, index) => {
-    const culprit = { kind: 'example', index } as const;
-    if (at.length !== dimensions.length) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `The place of "${name}" has ${at.length} coordinates; the pose space has ${dimensions.length} (${dimensions.join(', ')}).`,
-        remedy: 'Give one coordinate a dimension.',
-        culprit,
-      });
-    }
-    if (shape.length !== first.shape.length) {
-      throw new HandlebodyError('example-shape-mismatch', {
-        message: `The shape of "${name}" has ${shape.length} numbers, that of "${first.name}" ${first.shape.length}.`,
-        remedy: 'Give every example a shape of the same length, in the same order.',
-        culprit,
-      });
-    }
-    for (const [what, row] of [['place', at] as const, ['shape', shape] as const]) {
-      const bad = firstNotFinite(row);
-      if (bad === -1) continue;
-      throw new HandlebodyError('example-not-finite', {
-        message: `Number ${bad} of the ${what} of "${name}" is ${row[bad]}.`,
-        remedy: 'Remove NaN and infinite numbers.',
-        culprit,
-      });
-    }
+  examples.forEach(({ name, shape }, index) => {
+    if (shape.length === first.shape.length) return;
+    throw new HandlebodyError('example-shape-mismatch', {
+      message: `The shape of "${name}" has ${shape.length} numbers, that of "${first.name}" ${first.shape.length}.`,
+      remedy: 'Give every example a shape of the same length, in the same order.',
+      culprit: { kind: 'example', index },
+    });
   });
 }
 
-function firstNotFinite(row: ArrayLike<number>): number {
-  for (let i = 0; i < row.length; i++) if (!Number.isFinite(row[i])) return i;
-  return -1;
-}
-
 /** Which examples to keep: of several at one place the first, if their shapes are equal; it is an error otherwise. */
-function mergeDuplicates(examples: readonly PoseExample[], dimension: number) {
+function mergeDuplicates(examples: readonly ReadExample[], dimension: number) {
   const tolerance = COINCIDENT * diagonal(examples, dimension);
   const kept: number[] = [];
   const merged: { name: string; into: string }[] = [];
@@ -303,7 +292,7 @@ function mergeDuplicates(examples: readonly PoseExample[], dimension: number) {
   return { kept, merged };
 }
 
-function diagonal(examples: readonly PoseExample[], dimension: number): number {
+function diagonal(examples: readonly ReadExample[], dimension: number): number {
   const extents = Array.from({ length: dimension }, (_, axis) => {
     const coordinates = examples.map(({ at }) => at[axis] ?? 0);
     // No spread into Math.max: it overflows the stack for long lists.
@@ -323,12 +312,12 @@ function equal(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
   return true;
 }
 
-function exampleAt(examples: readonly PoseExample[], index: number): PoseExample {
-  return examples[index] as PoseExample;
+function exampleAt(examples: readonly ReadExample[], index: number): ReadExample {
+  return examples[index] as ReadExample;
 }
 
 /** The solver numbers only the examples that it was given: translates the culprit's number into the caller's, and adds its name. */
-function nameCulprit(error: unknown, examples: readonly PoseExample[], kept: readonly number[]): unknown {
+function nameCulprit(error: unknown, examples: readonly ReadExample[], kept: readonly number[]): unknown {
   if (!(error instanceof HandlebodyError) || error.culprit?.kind !== 'example') return error;
   const index = kept[error.culprit.index];
   if (index === undefined) return error;

@@ -1,9 +1,29 @@
 import { LAYOUT } from './abi.generated.ts';
+import {
+  flag,
+  type Numbers,
+  named,
+  notNegative,
+  numbers,
+  optional,
+  positive,
+  type Read,
+  type Reader,
+  type Readers,
+  whole,
+} from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
-import { checkShapes, type ScatteredData } from './interpolant.ts';
-import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS, type KernelFunction, type KernelName, type UserKernel } from './kernels.ts';
-import type { RbfWarning } from './rbf-report.ts';
+import { checkShapes, SCATTERED, type ScatteredData } from './interpolant.ts';
+import {
+  HOST_KERNEL,
+  KERNEL_NUMBERS,
+  KERNELS,
+  type KernelFunction,
+  type KernelName,
+  readKernel,
+  type UserKernel,
+} from './kernels.ts';
 
 /** Options of everything that is made of radial basis functions. */
 export interface RbfOptions extends ScatteredData {
@@ -13,7 +33,7 @@ export interface RbfOptions extends ScatteredData {
    * In units of the points; the kernel is a function of r/width. One number; one per center; `'auto'`, from the points' spacing; or
    * `'leave-one-out'`, the one with the least leave-one-out error (some 25 fits).
    */
-  readonly width?: number | ArrayLike<number> | 'auto' | 'leave-one-out';
+  readonly width?: number | Numbers | 'auto' | 'leave-one-out';
   /** Degree of the polynomial tail; −1 is none. `'auto'`: the lowest that the kernel needs. */
   readonly degree?: -1 | 0 | 1 | 2 | 'auto';
   /** λ of R + λI (SciPy's `smoothing`), in units of the kernel: 0 interpolates. The polynomial part is not penalized. */
@@ -22,18 +42,16 @@ export interface RbfOptions extends ScatteredData {
   readonly weightDecay?: number;
   /** Divides the kernels by their sum: weights stay small, and constants are reproduced without a tail. */
   readonly normalized?: boolean;
-  /** Fewer centers than points, k × dimension: a least-squares fit. Left out, each point is one. */
-  readonly centers?: ArrayLike<number>;
+  /** Fewer centers than points, k × dimension or k rows: a least-squares fit. Left out, each point is one. */
+  readonly centers?: Numbers;
   /** Which points a least-squares fit with `centers` trusts: all; `'least-absolute'`, all but a few; `'least-median'`, the better half. */
   readonly robust?: 'least-absolute' | 'least-median';
   /** M of a Mahalanobis distance r² = xᵀMx, dimension × dimension, symmetric and positive definite. */
-  readonly metric?: ArrayLike<number>;
+  readonly metric?: Numbers;
   /** Order of the kernels 'polyharmonic' and 'clamped-plate', more than half the dimension: 2 is biharmonic, 3 triharmonic. */
   readonly order?: number;
   /** Where the compact inverse multiquadric ends, in widths. */
   readonly support?: number;
-  /** Called for each warning when the fit is made. By default they go to the console; `report().warnings` has them too. */
-  readonly onWarning?: (warning: RbfWarning) => void;
 }
 
 export const RBF_DEFAULTS = {
@@ -46,6 +64,30 @@ export const RBF_DEFAULTS = {
   order: 2,
   support: 4,
 } as const;
+
+const readWidth: Reader<number | ArrayLike<number>> = (value, name) =>
+  typeof value === 'number' ? positive(value, name) : numbers(value, name);
+
+/** @internal How the options of everything that is made of radial basis functions are read. */
+export const RBF_READERS = {
+  ...SCATTERED,
+  kernel: named(Object.keys(KERNELS) as KernelName[], readKernel, 'a function of s'),
+  width: named(['auto', 'leave-one-out'], readWidth, 'a positive number, or one for each center'),
+  degree: named(['auto'], whole(-1, 2), 'a whole number from −1 to 2'),
+  smoothing: notNegative,
+  weightDecay: notNegative,
+  normalized: flag,
+  centers: optional((value, name, read) =>
+    numbers(value, name, { code: 'point-not-finite', kind: 'center', width: read?.dimension as number }),
+  ),
+  robust: optional(named(['least-absolute', 'least-median'])),
+  metric: optional(numbers),
+  order: whole(1, 64),
+  support: positive,
+} satisfies Readers<RbfOptions>;
+
+/** The options as they were read. @internal */
+export type ReadRbf = Read<typeof RBF_READERS>;
 
 /** The options as the solver's numbers. */
 interface ResolvedRbf {
@@ -67,28 +109,20 @@ interface ResolvedRbf {
   readonly metric: ArrayLike<number> | undefined;
 }
 
-/** Reads the options and checks what the solver cannot see: names, lengths, and sizes before anything is copied. */
-export function resolve(heap: Heap, options: RbfOptions): ResolvedRbf {
-  const all = { ...RBF_DEFAULTS, ...options };
-  const { kernel, width, order } = all;
-  const { dimension } = options;
-  const { count } = checkShapes(options);
+/** Checks what the solver cannot see: lengths, and sizes before anything is copied. */
+export function resolve(heap: Heap, all: ReadRbf): ResolvedRbf {
+  const { kernel, width, order, centers, metric, dimension } = all;
+  const { count } = checkShapes(all);
   const name = typeof kernel === 'string' ? kernel : 'custom';
-  if (name !== 'custom' && !Object.hasOwn(KERNELS, name))
-    throw unknown('kernel', name, [...Object.keys(KERNELS), 'a function of s']);
-  if (typeof width === 'string' && width !== 'auto' && width !== 'leave-one-out')
-    throw unknown('width', width, ['a number', 'numbers', "'auto'", "'leave-one-out'"]);
   const robust = ['least-absolute', 'least-median'].indexOf(all.robust ?? '') + 1;
-  if (all.robust !== undefined && robust === 0) throw unknown('robust method', all.robust, ['least-absolute', 'least-median']);
   const widths = typeof width === 'object' ? width : undefined;
-  const centers = all.centers;
   const centerCount = centers ? centers.length / dimension : 0;
   if (!Number.isInteger(centerCount) || (centers && centerCount === 0))
     throw invalid(`The ${centers?.length} numbers of the centers are no whole number of rows of ${dimension}.`);
   if (widths && widths.length !== (centerCount || count))
-    throw invalid(`There are ${widths.length} widths for ${centerCount || count} centers.`);
-  if (all.metric && all.metric.length !== dimension * dimension)
-    throw invalid(`The metric has ${all.metric.length} numbers; ${dimension} dimensions make ${dimension * dimension}.`);
+    throw invalid(`There are ${widths.length} numbers in "width" for ${centerCount || count} centers.`);
+  if (metric && metric.length !== dimension * dimension)
+    throw invalid(`The metric has ${metric.length} numbers; ${dimension} dimensions make ${dimension * dimension}.`);
   const degree = all.degree === 'auto' ? lowestDegree(name, dimension, order, all.normalized) : all.degree;
   heap.check((e) => e.hb_rbf_check_size(count, dimension, centerCount, degree));
   return {
@@ -107,7 +141,7 @@ export function resolve(heap: Heap, options: RbfOptions): ResolvedRbf {
     robust,
     centers,
     centerCount: centerCount || (widths ? count : 0),
-    metric: all.metric,
+    metric,
   };
 }
 
@@ -143,14 +177,6 @@ export function writeOptions(heap: Heap, scratch: Scratch, options: ResolvedRbf)
   words[layout.width_choice / 4] = options.widthChoice;
   words[layout.robust / 4] = options.robust;
   return at;
-}
-
-function unknown(what: string, value: unknown, known: readonly string[]): HandlebodyError {
-  return new HandlebodyError('invalid-option', {
-    message: `There is no ${what} called "${String(value)}".`,
-    remedy: `Use one of: ${known.join(', ')}.`,
-    culprit: { kind: 'option', index: -1 },
-  });
 }
 
 function invalid(message: string): HandlebodyError {

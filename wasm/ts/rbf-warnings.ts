@@ -1,10 +1,11 @@
+import type { ReadData } from './interpolant.ts';
 import { KERNELS } from './kernels.ts';
-import type { RbfOptions } from './rbf-options.ts';
+import type { ReadRbf } from './rbf-options.ts';
 import type { RbfReport, RbfWarning } from './rbf-report.ts';
 
 /** What warnings need beyond the report. */
 export interface WarningFacts {
-  readonly options: RbfOptions;
+  readonly options: ReadData & Partial<ReadRbf>;
   readonly dimension: number;
   readonly merged: readonly { readonly point: number; readonly into: number }[];
   readonly nearCount: number;

@@ -1,8 +1,9 @@
 import type { RuntimeExports } from './abi.generated.ts';
+import { options } from './arguments.ts';
 import type { Heap } from './heap.ts';
 import { Interpolant } from './interpolant.ts';
 import type { KernelName } from './kernels.ts';
-import { type RbfOptions, resolve, writeOptions } from './rbf-options.ts';
+import { RBF_DEFAULTS, RBF_READERS, type RbfOptions, type ReadRbf, resolve, writeOptions } from './rbf-options.ts';
 import { readReport } from './rbf-read-report.ts';
 import { printWarning, type RbfReport } from './rbf-report.ts';
 
@@ -20,16 +21,17 @@ export class Rbf extends Interpolant {
   readonly #kernel: KernelName | 'custom';
   readonly #degree: number;
   readonly #hostKernel: number;
-  readonly #options: RbfOptions;
+  readonly #options: ReadRbf;
   #report: RbfReport | undefined;
 
   /** @internal Use `Handlebody.rbf`. */
-  constructor(heap: Heap, options: RbfOptions) {
-    const resolved = resolve(heap, options);
+  constructor(heap: Heap, given: RbfOptions) {
+    const read = options(given, RBF_READERS, RBF_DEFAULTS);
+    const resolved = resolve(heap, read);
     try {
       super(
         heap,
-        options,
+        read,
         (e, { points, values, count, dimension, outputs, out }, at) =>
           e.hb_rbf_create(points, values, count, dimension, outputs, at, out),
         (scratch) => writeOptions(heap, scratch, resolved),
@@ -42,8 +44,8 @@ export class Rbf extends Interpolant {
     this.#kernel = resolved.name;
     this.#degree = resolved.degree;
     this.#hostKernel = resolved.hostKernel;
-    this.#options = options;
-    for (const warning of this.report().warnings) (options.onWarning ?? printWarning)(warning);
+    this.#options = read;
+    for (const warning of this.report().warnings) (read.onWarning ?? printWarning)(warning);
   }
 
   /** How good the fit is, and its warnings. */

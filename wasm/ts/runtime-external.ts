@@ -1,5 +1,6 @@
+import { bound } from './bound.ts';
 import { HandlebodyRuntime } from './handlebody-runtime.ts';
-import { instantiate, type LoadOptions } from './load.ts';
+import { instantiate, type LoadOptions, readLoadOptions } from './load.ts';
 
 export * from './runtime-api.ts';
 
@@ -13,6 +14,6 @@ export * from './runtime-api.ts';
  * ```
  */
 export async function load(options: LoadOptions = {}): Promise<HandlebodyRuntime> {
-  const source = options.wasm ?? new URL('../../../wasm/handlebody.runtime.wasm', import.meta.url);
-  return new HandlebodyRuntime(await instantiate('handlebody.runtime.wasm', source, options.signal));
+  const { wasm = new URL('../../../wasm/handlebody.runtime.wasm', import.meta.url), signal } = readLoadOptions(options);
+  return bound(new HandlebodyRuntime(await instantiate('handlebody.runtime.wasm', wasm, signal)));
 }

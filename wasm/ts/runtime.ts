@@ -1,3 +1,4 @@
+import { bound } from './bound.ts';
 import { HandlebodyRuntime } from './handlebody-runtime.ts';
 import { loadInline } from './inline.ts';
 import type { LoadOptions } from './load.ts';
@@ -16,5 +17,5 @@ export * from './runtime-api.ts';
  */
 export async function load(options: LoadOptions = {}): Promise<HandlebodyRuntime> {
   const inside = { bytes: WASM_BYTES, deflated: WASM_DEFLATED_BASE64 };
-  return new HandlebodyRuntime(await loadInline('handlebody.runtime.wasm', inside, options));
+  return bound(new HandlebodyRuntime(await loadInline('handlebody.runtime.wasm', inside, options)));
 }

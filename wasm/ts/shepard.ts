@@ -1,5 +1,6 @@
+import { notNegative, options, positive, type Readers } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { Interpolant, type ScatteredData } from './interpolant.ts';
+import { Interpolant, SCATTERED, type ScatteredData } from './interpolant.ts';
 
 export interface ShepardOptions extends ScatteredData {
   /** p > 0: flat spots at the points where it is above 1, cusps where it is below or equal. */
@@ -9,6 +10,8 @@ export interface ShepardOptions extends ScatteredData {
 }
 
 export const SHEPARD_DEFAULTS = { power: 2, epsilon: 0 } as const;
+
+const READERS = { ...SCATTERED, power: positive, epsilon: notNegative } satisfies Readers<ShepardOptions>;
 
 /**
  * Shepard's method (2014 course, §4.3): f(x) = Σ wₖ fₖ / Σ wₖ with wₖ = (‖x − xₖ‖ + ε)⁻ᵖ. It never leaves the range of the values,
@@ -21,9 +24,9 @@ export const SHEPARD_DEFAULTS = { power: 2, epsilon: 0 } as const;
  */
 export class Shepard extends Interpolant {
   /** @internal Use `Handlebody.shepard`. */
-  constructor(heap: Heap, options: ShepardOptions) {
-    const { power, epsilon } = { ...SHEPARD_DEFAULTS, ...options };
-    super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>
+  constructor(heap: Heap, given: ShepardOptions) {
+    const { power, epsilon, ...data } = options(given, READERS, SHEPARD_DEFAULTS);
+    super(heap, data, (e, { points, values, count, dimension, outputs, out }) =>
       e.hb_shepard_create(points, values, count, dimension, outputs, power, epsilon, out),
     );
   }

@@ -1,6 +1,7 @@
+import { options, type Readers } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { Interpolant, type ScatteredData } from './interpolant.ts';
-import { type OutsideHull, outsideNumber } from './outside-hull.ts';
+import { Interpolant, SCATTERED, type ScatteredData } from './interpolant.ts';
+import { OUTSIDE, type OutsideHull, outsideHull } from './outside-hull.ts';
 
 export interface SimplexLinearOptions extends ScatteredData {
   /** What to return outside the convex hull of the points: the value at its nearest point, or NaN. */
@@ -8,6 +9,8 @@ export interface SimplexLinearOptions extends ScatteredData {
 }
 
 export const SIMPLEX_LINEAR_DEFAULTS = { outside: 'nearest' } as const;
+
+const READERS = { ...SCATTERED, outside: outsideHull } satisfies Readers<SimplexLinearOptions>;
 
 /**
  * Linear interpolation on the Delaunay simplices of the points (2014 course, §4.1), in any dimension: f(x) = Σ wₖ fₖ with the
@@ -22,10 +25,10 @@ export const SIMPLEX_LINEAR_DEFAULTS = { outside: 'nearest' } as const;
  */
 export class SimplexLinear extends Interpolant {
   /** @internal Use `Handlebody.simplexLinear`. */
-  constructor(heap: Heap, options: SimplexLinearOptions) {
-    const { outside } = { ...SIMPLEX_LINEAR_DEFAULTS, ...options };
-    const rule = outsideNumber(outside);
-    super(heap, options, (e, { points, values, count, dimension, outputs, out }) =>
+  constructor(heap: Heap, given: SimplexLinearOptions) {
+    const { outside, ...data } = options(given, READERS, SIMPLEX_LINEAR_DEFAULTS);
+    const rule = OUTSIDE.indexOf(outside);
+    super(heap, data, (e, { points, values, count, dimension, outputs, out }) =>
       e.hb_simplex_linear_create(points, values, count, dimension, outputs, rule, out),
     );
   }

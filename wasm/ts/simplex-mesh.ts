@@ -1,18 +1,20 @@
 import { LAYOUT } from './abi.generated.ts';
+import { checkNames, type Numbers, told } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
+import { meshLike, readCorners, readPositions } from './mesh-arrays.ts';
 
 /**
  * Triangles in the plane or in space, or tetrahedra: one of `triangles` (m×3) and `tetrahedra` (m×4), indices into `positions`. Vertices at
  * one place are one, and what has no area or volume is left out, unless `MeshOptions` say otherwise.
  */
 export interface SimplexMesh {
-  /** n × dimension, row-major. */
-  readonly positions: ArrayLike<number>;
+  /** n × dimension, row-major; or n rows. */
+  readonly positions: Numbers;
   /** 3 unless said otherwise. */
   readonly dimension?: 2 | 3;
-  readonly triangles?: ArrayLike<number>;
-  readonly tetrahedra?: ArrayLike<number>;
+  readonly triangles?: Numbers;
+  readonly tetrahedra?: Numbers;
 }
 
 /** A mesh whose arrays fit together. @internal */
@@ -26,43 +28,37 @@ export interface CheckedMesh {
 }
 
 /** @internal */
-export function checkSimplexMesh(mesh: SimplexMesh): CheckedMesh {
-  const { positions, dimension = 3, triangles, tetrahedra } = mesh;
+export function checkSimplexMesh(given: SimplexMesh, name: string): CheckedMesh {
+  const mesh = meshLike(given, name);
+  checkNames(mesh, NAMES, name);
+  const { dimension = 3, triangles, tetrahedra } = mesh;
   const simplices = triangles ?? tetrahedra;
-  if (!simplices || (triangles && tetrahedra)) {
+  if (simplices === undefined || (triangles !== undefined && tetrahedra !== undefined)) {
     throw new HandlebodyError('invalid-shape', {
-      message: `The mesh has ${simplices ? 'triangles and tetrahedra' : 'neither triangles nor tetrahedra'}.`,
+      message: `The mesh has ${simplices === undefined ? 'neither triangles nor tetrahedra' : 'triangles and tetrahedra'}.`,
       remedy: 'Give one of the two.',
     });
   }
-  if (dimension !== 3 && !(dimension === 2 && triangles)) {
+  if (dimension !== 3 && !(dimension === 2 && tetrahedra === undefined)) {
     throw new HandlebodyError('invalid-shape', {
-      message: `A mesh of ${triangles ? 'triangles' : 'tetrahedra'} cannot have ${dimension} dimensions.`,
+      message: `The "dimension" of a mesh of ${tetrahedra === undefined ? 'triangles' : 'tetrahedra'} is ${told(dimension)}.`,
       remedy: 'Use 2 or 3 for triangles, 3 for tetrahedra.',
     });
   }
-  if (positions.length === 0 || positions.length % dimension !== 0) {
+  const positions = readPositions(mesh, dimension);
+  const vertexCount = positions.length / dimension;
+  if (vertexCount === 0) {
     throw new HandlebodyError('invalid-shape', {
-      message: `${positions.length} numbers are no list of positions in ${dimension} dimensions.`,
+      message: "The mesh's positions are none.",
       remedy: 'Give dimension numbers a vertex, and say the dimension where it is not 3.',
     });
   }
-  const corners = triangles ? 3 : 4;
-  if (simplices.length % corners !== 0) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `${simplices.length} indices are no list of ${triangles ? 'triangles' : 'tetrahedra'}.`,
-      remedy: `Give ${corners} indices each.`,
-    });
-  }
-  return {
-    positions,
-    dimension,
-    vertexCount: positions.length / dimension,
-    simplices,
-    corners,
-    simplexCount: simplices.length / corners,
-  };
+  const corners = tetrahedra === undefined ? 3 : 4;
+  const read = readCorners(simplices, corners === 3 ? 'triangles' : 'tetrahedra');
+  return { positions, dimension, vertexCount, simplices: read, corners, simplexCount: read.length / corners };
 }
+
+const NAMES = { positions: 0, dimension: 0, triangles: 0, tetrahedra: 0 };
 
 /** @internal Puts the mesh into scratch memory, as the solver takes it, and returns its address. */
 export function putMesh(heap: Heap, scratch: Scratch, mesh: CheckedMesh): number {

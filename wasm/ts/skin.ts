@@ -1,6 +1,17 @@
 import type { RuntimeExports } from './abi.generated.ts';
+import {
+  callback,
+  checkRoom,
+  flag,
+  type Numbers,
+  numbers,
+  optional,
+  type Read,
+  type Reader,
+  type Readers,
+  whole,
+} from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { printWarning } from './rbf-report.ts';
 import { type SkinWarning, withSumsOfOne } from './skin-weights.ts';
@@ -8,12 +19,12 @@ import type { TypedArray } from './types.ts';
 
 /** A shape that moves by blending: rest positions, and the weight of each handle at each of them. */
 export interface SkinOptions {
-  /** n × dimension, row-major. */
-  readonly positions: ArrayLike<number>;
+  /** n × dimension, row-major; or n rows. */
+  readonly positions: Numbers;
   /** 2 in the plane, 3 (the default) in space. */
   readonly dimension?: 2 | 3;
-  /** n × h, row-major: for every vertex one number per handle. */
-  readonly weights: ArrayLike<number>;
+  /** n × h, row-major: for every vertex one number per handle; or n rows. */
+  readonly weights: Numbers;
   /**
    * Divides each vertex's weights by their sum, so that the shape rests where all transforms are the identity. A vertex whose weights have no
    * positive sum is refused by 'weights-missing'. With `false` they are taken as they are.
@@ -27,6 +38,20 @@ export interface SkinOptions {
 }
 
 export const SKIN_DEFAULTS = { dimension: 3, normalize: true } as const;
+
+/** @internal How the options of blended skins are read. The solver names numbers that are not finite. */
+export const SKIN_READERS = {
+  dimension: whole(2, 3, 'invalid-shape') as Reader<2 | 3>,
+  positions: (value, name, { dimension } = {}) =>
+    numbers(value, name, { code: 'mesh-not-finite', kind: 'vertex', width: dimension as number }),
+  weights: (value, name, { dimension, positions } = {}) => {
+    const count = (positions as ArrayLike<number>).length / (dimension as number);
+    const width = ((value as ArrayLike<unknown> | undefined)?.length ?? 0) / count;
+    return numbers(value, name, { code: 'value-not-finite', kind: 'vertex', width });
+  },
+  normalize: flag,
+  onWarning: optional(callback),
+} satisfies Readers<SkinOptions>;
 
 /**
  * A shape under h handles: write their `transforms`, then `deform`. A frame allocates nothing when it is given `out`.
@@ -108,14 +133,8 @@ export abstract class Skin {
       });
     }
     const length = this.vertexCount * this.dimension;
+    if (given !== undefined) checkRoom(given, 'out', length);
     const out: TypedArray = given ?? new Float32Array(length);
-    checkFractions(out);
-    if (out.length !== length) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `deform() got room for ${out.length} numbers; the shape has ${length}.`,
-        remedy: `Give ${this.dimension} numbers a vertex, or leave it out.`,
-      });
-    }
     const at = heap.call((e) => e.hb_skin_transforms(handle));
     heap.f64(at, transforms.length).set(transforms);
     run(handle, this.#out);
@@ -136,10 +155,10 @@ export abstract class BlendedSkin extends Skin {
   /** @internal */
   protected constructor(
     heap: Heap,
-    options: SkinOptions,
+    options: Read<typeof SKIN_READERS>,
     create: (exports: RuntimeExports, out: number, given: BlendArguments) => number,
   ) {
-    const { positions, dimension, weights, normalize, onWarning } = { ...SKIN_DEFAULTS, ...options };
+    const { positions, dimension, weights, normalize, onWarning } = options;
     const vertexCount = countRows(positions, dimension);
     const handleCount = weights.length / vertexCount;
     if (!Number.isInteger(handleCount) || handleCount === 0) {
@@ -179,12 +198,6 @@ interface BlendArguments {
 
 /** Number of vertices that have these positions. */
 function countRows(positions: ArrayLike<number>, dimension: number): number {
-  if (dimension !== 2 && dimension !== 3) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `Positions have ${dimension} coordinates.`,
-      remedy: 'Use 2 in the plane, 3 in space.',
-    });
-  }
   const count = positions.length / dimension;
   if (Number.isInteger(count) && count > 0) return count;
   throw new HandlebodyError('invalid-shape', {

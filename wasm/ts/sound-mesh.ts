@@ -1,6 +1,7 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import type { Read } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { type MeshOptions, meshWarnings } from './mesh-warnings.ts';
+import { type MESH_READERS, meshWarnings } from './mesh-warnings.ts';
 import { type CheckedMesh, checkSimplexMesh, putMesh, type SimplexMesh } from './simplex-mesh.ts';
 
 /** How meshes are read where nothing else is said. */
@@ -14,10 +15,12 @@ interface FlatVertex {
 }
 
 /**
- * A mesh as the solver wants it, made from one as it comes: a vertex for each place, without flat and doubled triangles. Keeps a copy, so
- * that the caller's arrays may change.
+ * A mesh as the solver wants it, made from one as it comes: a vertex for each place, without flat and doubled triangles. All but `given` are
+ * copies, so that the caller's arrays may change.
  */
 export class SoundMesh {
+  /** The mesh as it came: its arrays may be the caller's, and may change once this is made. */
+  readonly given: CheckedMesh;
   /** What the solver computes on. */
   readonly sound: CheckedMesh;
   /** Of the mesh as it came. */
@@ -32,9 +35,9 @@ export class SoundMesh {
   /** Corners, in `sound`, of the simplices that were left out because others have the same. */
   readonly doubled: readonly number[];
 
-  constructor(heap: Heap<Exports>, mesh: SimplexMesh, options: MeshOptions = {}) {
-    const { weld, strict, onWarning } = { ...MESH_DEFAULTS, ...options };
-    const given = checkSimplexMesh(mesh);
+  constructor(heap: Heap<Exports>, mesh: SimplexMesh, { weld, strict, onWarning }: Read<typeof MESH_READERS>, name = 'mesh') {
+    const given = checkSimplexMesh(mesh, name);
+    this.given = given;
     const made = heap.scope((scratch) => {
       const shape = putMesh(heap, scratch, given);
       const out = scratch.reserve(LAYOUT.hb_sound_mesh_view.sizeof);

@@ -1,9 +1,9 @@
 import { LAYOUT } from './abi.generated.ts';
-import { HandlebodyError } from './errors.ts';
+import { named, notNegative, options, type Readers } from './arguments.ts';
 import type { Heap } from './heap.ts';
-import { checkShapes, Interpolant, type ScatteredData } from './interpolant.ts';
+import { checkShapes, Interpolant, type ReadData, SCATTERED, type ScatteredData } from './interpolant.ts';
 import { readReport } from './rbf-read-report.ts';
-import { printWarning, type RbfReport, type RbfWarning } from './rbf-report.ts';
+import { printWarning, type RbfReport } from './rbf-report.ts';
 
 export interface TensionSplineOptions extends ScatteredData {
   /** Weight of curvature, α ≥ 0; 0 only in 1 dimension. */
@@ -19,13 +19,20 @@ export interface TensionSplineOptions extends ScatteredData {
    * interval only, flat at both ends and constant beyond (Fig. 11).
    */
   readonly ends?: 'natural' | 'zero-slope';
-  /** Called for each warning when the spline is made. By default they go to the console; `report()` has them too. */
-  readonly onWarning?: (warning: RbfWarning) => void;
 }
 
 export const TENSION_SPLINE_DEFAULTS = { alpha: 1, beta: 0, gamma: 0, smoothing: 0, ends: 'natural' } as const;
 
-const ENDS: readonly unknown[] = ['natural', 'zero-slope'];
+const ENDS = ['natural', 'zero-slope'] as const;
+
+const READERS = {
+  ...SCATTERED,
+  alpha: notNegative,
+  beta: notNegative,
+  gamma: notNegative,
+  smoothing: notNegative,
+  ends: named(ENDS),
+} satisfies Readers<TensionSplineOptions>;
 
 /**
  * The spline with tension in 1, 2 or 3 dimensions (2014 course, §4.2 and eq. (2)): the function with the least
@@ -38,28 +45,22 @@ const ENDS: readonly unknown[] = ['natural', 'zero-slope'];
  * ```
  */
 export class TensionSpline extends Interpolant {
-  readonly #options: TensionSplineOptions;
+  readonly #options: ReadData;
   readonly #degree: number;
   readonly #ends: 'natural' | 'zero-slope';
   #report: RbfReport | undefined;
 
   /** @internal Use `Handlebody.tensionSpline`. */
-  constructor(heap: Heap, options: TensionSplineOptions) {
-    const { alpha, beta, gamma, smoothing, ends } = { ...TENSION_SPLINE_DEFAULTS, ...options };
+  constructor(heap: Heap, given: TensionSplineOptions) {
+    const read = options(given, READERS, TENSION_SPLINE_DEFAULTS);
+    const { alpha, beta, gamma, smoothing, ends, onWarning = printWarning } = read;
     const kind = ENDS.indexOf(ends);
-    if (kind === -1) {
-      throw new HandlebodyError('invalid-option', {
-        message: `There are no ends called "${ends}".`,
-        remedy: `Use one of: ${ENDS.join(', ')}.`,
-        culprit: { kind: 'option', index: -1 },
-      });
-    }
     const degree = gamma > 0 ? -1 : beta > 0 ? 0 : 1;
-    const { count } = checkShapes(options);
-    if (kind === 0) heap.check((e) => e.hb_rbf_check_size(count, options.dimension, 0, degree));
+    const { count } = checkShapes(read);
+    if (kind === 0) heap.check((e) => e.hb_rbf_check_size(count, read.dimension, 0, degree));
     super(
       heap,
-      options,
+      read,
       (e, { points, values, dimension, outputs, out }, how) =>
         e.hb_tension_spline_create(points, values, count, dimension, outputs, how, out),
       (scratch) => {
@@ -74,10 +75,10 @@ export class TensionSpline extends Interpolant {
         return at;
       },
     );
-    this.#options = options;
+    this.#options = read;
     this.#degree = degree;
     this.#ends = ends;
-    for (const warning of this.report()?.warnings ?? []) (options.onWarning ?? printWarning)(warning);
+    for (const warning of this.report()?.warnings ?? []) onWarning(warning);
   }
 
   /** How good the fit is, and its warnings; `undefined` for zero-slope ends, whose equations are always well behaved. */

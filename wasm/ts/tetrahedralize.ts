@@ -1,8 +1,8 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
+import { checkRoom, type Numbers, numbers, options, type Readers, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
-import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
-import type { MeshOptions } from './mesh-warnings.ts';
+import { MESH_READERS, type MeshOptions } from './mesh-warnings.ts';
 import type { SimplexMesh } from './simplex-mesh.ts';
 import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import type { Mesh, TypedArray } from './types.ts';
@@ -13,6 +13,8 @@ export interface TetrahedralizeOptions extends MeshOptions {
 }
 
 export const TETRAHEDRALIZE_DEFAULTS = { resolution: 32, ...MESH_DEFAULTS } as const;
+
+const READERS = { ...MESH_READERS, resolution: whole(4, 256) } satisfies Readers<TetrahedralizeOptions>;
 
 /**
  * Tetrahedra that fill a surface, with the place of each of its vertices in them: a mesh for `biharmonicWeights` and the like.
@@ -43,30 +45,25 @@ export class Tetrahedra implements SimplexMesh {
   }
 
   /** Interpolates values at the tetrahedra's vertices (n×k) to the surface's vertices (k numbers each), linearly in each tetrahedron. */
-  sample<T extends TypedArray = Float64Array>(values: ArrayLike<number>, out?: T): T {
+  sample<T extends TypedArray = Float64Array>(values: Numbers, out?: T): T {
+    const given = numbers(values, 'values', { finite: false });
     const count = this.positions.length / 3;
-    const width = values.length / count;
+    const width = given.length / count;
     if (!Number.isInteger(width) || width === 0) {
       throw new HandlebodyError('invalid-shape', {
-        message: `${values.length} values are not as many for each of ${count} vertices.`,
+        message: `${given.length} values are not as many for each of ${count} vertices.`,
         remedy: "Give the tetrahedra's values, row-major.",
       });
     }
     const rows = this.corners.length / 4;
+    if (out !== undefined) checkRoom(out, 'out', rows * width);
     const result: TypedArray = out ?? new Float64Array(rows * width);
-    checkFractions(result);
-    if (result.length !== rows * width) {
-      throw new HandlebodyError('invalid-shape', {
-        message: `There is room for ${result.length} numbers; the surface's vertices take ${rows * width}.`,
-        remedy: 'Give as much room, or leave it out.',
-      });
-    }
     result.fill(0);
     for (let k = 0; k < this.corners.length; k++) {
       const from = (this.corners[k] as number) * width;
       const to = (k >> 2) * width;
       const part = this.coordinates[k] as number;
-      for (let j = 0; j < width; j++) result[to + j] = (result[to + j] as number) + part * (values[from + j] as number);
+      for (let j = 0; j < width; j++) result[to + j] = (result[to + j] as number) + part * (given[from + j] as number);
     }
     return result as T;
   }
@@ -83,16 +80,10 @@ export class Tetrahedra implements SimplexMesh {
  * const atVertices = solid.sample(weights);   // rows of the dog's own vertices
  * ```
  */
-export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, options: TetrahedralizeOptions = {}): Tetrahedra {
-  const { resolution } = { ...TETRAHEDRALIZE_DEFAULTS, ...options };
-  if (!(Number.isInteger(resolution) && resolution >= 4 && resolution <= 256)) {
-    throw new HandlebodyError('invalid-option', {
-      message: `The resolution ${resolution} is not a whole number from 4 to 256.`,
-      remedy: 'Give voxels along the longest side.',
-      culprit: { kind: 'option', index: -1 },
-    });
-  }
-  const mesh = new SoundMesh(heap, surface, options);
+export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, given: TetrahedralizeOptions = {}): Tetrahedra {
+  const read = options(given, READERS, TETRAHEDRALIZE_DEFAULTS);
+  const { resolution } = read;
+  const mesh = new SoundMesh(heap, surface, read, 'surface');
   if (mesh.sound.corners !== 3 || mesh.sound.dimension !== 3) {
     throw new HandlebodyError('invalid-shape', {
       message: `Simplices of ${mesh.sound.corners} corners in ${mesh.sound.dimension} dimensions are no surface to fill.`,
@@ -100,7 +91,7 @@ export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, options: Tetr
     });
   }
   const { sound, first, doubled, vertexCount } = mesh;
-  const positions = insideBox(sound.simplices, first, surface.positions);
+  const positions = insideBox(sound.simplices, first, mesh.given.positions);
   // Which of two faces in one place faces outward, the voxels decide.
   const simplices = Array.from(sound.simplices)
     .concat(doubled)

@@ -1,4 +1,5 @@
 import { LAYOUT } from './abi.generated.ts';
+import { indices, list, optional, options, refused, row, type Vector } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 import type { CheckedMesh } from './simplex-mesh.ts';
@@ -12,8 +13,8 @@ import type { SoundMesh } from './sound-mesh.ts';
 export type WeightHandle =
   | { readonly vertex: number }
   | { readonly vertices: ArrayLike<number> }
-  | { readonly at: ArrayLike<number> }
-  | { readonly bone: readonly [ArrayLike<number>, ArrayLike<number>] };
+  | { readonly at: ArrayLike<number> | Vector }
+  | { readonly bone: readonly [ArrayLike<number> | Vector, ArrayLike<number> | Vector] };
 
 /** The vertices of every handle: of the sound mesh, and of the mesh as it came. @internal */
 interface ResolvedHandles {
@@ -25,23 +26,19 @@ interface ResolvedHandles {
  * @internal The vertices of every handle. A bone leaves out those that an earlier handle holds, as where two bones meet; that two others hold
  * one vertex is refused unless it may be `shared`.
  */
-export function resolveHandles(mesh: SoundMesh, handles: readonly WeightHandle[], shared: boolean): ResolvedHandles {
+export function resolveHandles(mesh: SoundMesh, given: readonly WeightHandle[], shared: boolean): ResolvedHandles {
+  const handles = readHandles(given, mesh.sound.dimension);
   const { sound, soundOf, first } = mesh;
   const inUse = new Uint8Array(sound.vertexCount);
   for (let i = 0; i < sound.simplices.length; i++) inUse[sound.simplices[i] as number] = 1;
   const taken = new Map<number, { readonly index: number; readonly vertex: number }>();
   const vertices = handles.map((handle, index) => {
-    let given: number[];
-    if ('vertex' in handle) given = [handle.vertex];
-    else if ('vertices' in handle) given = Array.from(handle.vertices);
-    else {
-      const found =
-        'at' in handle
-          ? [nearestVertex(sound, inUse, checkPlace(sound, handle.at, index))]
-          : boneVertices(sound, inUse, handle.bone, index, taken);
-      given = found.map((vertex) => first[vertex] as number);
-    }
-    for (const vertex of given) {
+    const { vertices, at, bone } = handle;
+    const found = at
+      ? [nearestVertex(sound, inUse, checkPlace(sound, at, index))]
+      : bone && boneVertices(sound, inUse, bone, index, taken);
+    const held = found ? found.map((vertex) => first[vertex] as number) : (vertices as number[]);
+    for (const vertex of held) {
       if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.vertexCount)) {
         throw new HandlebodyError('handle-out-of-range', {
           message: `Handle ${index} holds vertex ${vertex}; the mesh has ${mesh.vertexCount}, counted from 0.`,
@@ -54,9 +51,39 @@ export function resolveHandles(mesh: SoundMesh, handles: readonly WeightHandle[]
       if (before && before.index !== index && !shared) throw conflict(before, { index, vertex });
       if (!before) taken.set(place, { index, vertex });
     }
-    return given;
+    return held;
   });
   return { vertices, held: vertices.map((list) => [...new Set(list.map((vertex) => soundOf[vertex] as number))]) };
+}
+
+/** What handles hold, one of the four each, before it is known whether the mesh has it. */
+function readHandles(given: unknown, dimension: number) {
+  return list(given, 'handles', 'handles, such as { vertex: 0 }', (handle, name, index) => {
+    const culprit = { kind: 'handle', index } as const;
+    const place = (value: unknown, key: string) =>
+      row(value, `${name}.${key}`, dimension, { ...culprit, code: 'handle-not-finite' });
+    const vertices = (value: unknown, key: string) =>
+      Array.from(indices(value, `${name}.${key}`, { ...culprit, code: 'handle-out-of-range' }));
+    const readers = {
+      vertex: optional((value, key) => vertices([value], key)),
+      vertices: optional(vertices),
+      at: optional(place),
+      bone: optional((value, key) => {
+        const ends = list(value, `${name}.${key}`, 'two places', (end, at) => place(end, at.slice(name.length + 1)));
+        if (ends.length === 2) return ends as [ArrayLike<number>, ArrayLike<number>];
+        throw refused(`${name}.${key}`, value, 'Give the two ends of a segment.', { ...culprit, code: 'invalid-shape' });
+      }),
+    };
+    const read = options(handle, readers, {}, name);
+    const { vertex, at, bone } = read;
+    const kinds = Object.values(read).filter((value) => value !== undefined).length;
+    if (kinds === 1) return { vertices: vertex ?? read.vertices, at, bone };
+    throw new HandlebodyError('invalid-option', {
+      message: `The "${name}" says ${kinds === 0 ? 'nothing of' : `in ${kinds} ways`} what it holds.`,
+      remedy: 'Give each handle one of { vertex }, { vertices }, { at } and { bone: [from, to] }.',
+      culprit,
+    });
+  });
 }
 
 function conflict(
@@ -115,26 +142,11 @@ function boneVertices(
 }
 
 function checkPlace(mesh: CheckedMesh, at: ArrayLike<number>, index: number): ArrayLike<number> {
-  const culprit = { kind: 'handle', index } as const;
-  if (at.length !== mesh.dimension) {
-    throw new HandlebodyError('invalid-shape', {
-      message: `Handle ${index} has a place of ${at.length} coordinates; the mesh has ${mesh.dimension}.`,
-      remedy: 'Give one coordinate a dimension.',
-      culprit,
-    });
-  }
-  if (!Array.from(at).every(Number.isFinite)) {
-    throw new HandlebodyError('handle-not-finite', {
-      message: `Handle ${index} has a place that is not a finite number.`,
-      remedy: 'Give numbers.',
-      culprit,
-    });
-  }
   if (mesh.corners === mesh.dimension + 1 && !isInside(mesh, at)) {
     throw new HandlebodyError('handle-outside', {
       message: `Handle ${index} at (${Array.from(at, (x) => Number(x.toPrecision(4))).join(', ')}) is outside the shape.`,
       remedy: 'Place it inside, or name a vertex.',
-      culprit,
+      culprit: { kind: 'handle', index },
     });
   }
   return at;

@@ -81,7 +81,10 @@ const when: Kind['when'] = {
 };
 
 /** The solver's options for settings. */
-export function rbfOptions({ dimension, points, values }: Data, settings: Settings): RbfOptions {
+export function rbfOptions(
+  { dimension, points, values }: Data,
+  settings: Settings,
+): RbfOptions & { readonly centers?: readonly number[] } {
   const { kernel, fit, width, order, smoothing, decay, normalized, degree, support, centers, robust, stretch, angle } = settings;
   const every = Number(centers);
   const rows = (i: number) => Math.floor(i / dimension) % every === 0;
