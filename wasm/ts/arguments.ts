@@ -13,7 +13,7 @@ export type Readers<T> = { readonly [Key in keyof T]-?: Reader<unknown> };
 export type Read<R> = { readonly [Key in keyof R]: R[Key] extends Reader<infer T> ? T : never };
 
 /** How the numbers of an array are to be told when one is wrong. */
-export interface Rule {
+interface Rule {
   /** Of an error about one of the numbers. */
   readonly code?: ErrorCode;
   readonly kind?: CulpritKind;
@@ -193,7 +193,7 @@ function asList(value: unknown): ArrayLike<unknown> | undefined {
 }
 
 /** What is read of three.js' BufferAttribute. */
-export interface Attribute {
+interface Attribute {
   readonly count: number;
   readonly itemSize: number;
   getComponent(index: number, component: number): number;

@@ -1,5 +1,3 @@
-import { callback, object, optional } from './arguments.ts';
-
 /** What is known of a kernel φ(s), s = r/width. */
 export interface KernelInfo {
   /** The kernel in mathematical notation. */
@@ -72,13 +70,4 @@ export interface UserKernel {
   readonly value: KernelFunction;
   /** φ′(s), for gradients; central differences of `value` where it is left out. */
   readonly derivative?: KernelFunction;
-}
-
-/** A kernel that is no name. */
-export function readKernel(value: unknown, name: string): KernelFunction | UserKernel {
-  if (typeof value === 'function') return value as KernelFunction;
-  const given = object(value, name, "Give a kernel's name, a function of s, or { value, derivative }.");
-  optional(callback)(given.derivative, `${name}.derivative`);
-  callback(given.value, `${name}.value`);
-  return value as UserKernel;
 }

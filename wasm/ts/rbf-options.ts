@@ -1,10 +1,12 @@
 import { LAYOUT } from './abi.generated.ts';
 import {
+  callback,
   flag,
   type Numbers,
   named,
   notNegative,
   numbers,
+  object,
   optional,
   positive,
   type Read,
@@ -21,7 +23,6 @@ import {
   KERNELS,
   type KernelFunction,
   type KernelName,
-  readKernel,
   type UserKernel,
 } from './kernels.ts';
 
@@ -64,6 +65,15 @@ export const RBF_DEFAULTS = {
   order: 2,
   support: 4,
 } as const;
+
+/** A kernel that is no name. */
+function readKernel(value: unknown, name: string): KernelFunction | UserKernel {
+  if (typeof value === 'function') return value as KernelFunction;
+  const given = object(value, name, "Give a kernel's name, a function of s, or { value, derivative }.");
+  optional(callback)(given.derivative, `${name}.derivative`);
+  callback(given.value, `${name}.value`);
+  return value as UserKernel;
+}
 
 const readWidth: Reader<number | ArrayLike<number>> = (value, name) =>
   typeof value === 'number' ? positive(value, name) : numbers(value, name);
