@@ -13,7 +13,7 @@ import { right, samples } from './support/samples.ts';
 import { type Kind, WRONG } from './support/wrong-values.ts';
 
 /** Entries that only a browser can import: their elements' attributes are text, and tests/web tries those. */
-const ELEMENTS = /element|anywidget|standalone|bake-worker|figure|gltf-transform|three|worker/;
+const ELEMENTS = /element|anywidget|standalone|bake-worker|figure/;
 
 /** What cannot be tried so, and why: at most ten. */
 const EXCEPTIONS: Readonly<Record<string, string>> = {

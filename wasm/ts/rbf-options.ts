@@ -17,14 +17,7 @@ import {
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { checkShapes, SCATTERED, type ScatteredData } from './interpolant.ts';
-import {
-  HOST_KERNEL,
-  KERNEL_NUMBERS,
-  KERNELS,
-  type KernelFunction,
-  type KernelName,
-  type UserKernel,
-} from './kernels.ts';
+import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS, type KernelFunction, type KernelName, type UserKernel } from './kernels.ts';
 
 /** Options of everything that is made of radial basis functions. */
 export interface RbfOptions extends ScatteredData {

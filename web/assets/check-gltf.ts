@@ -1,3 +1,13 @@
+import {
+  list,
+  notNegative,
+  numbers,
+  object,
+  optional,
+  type Readers,
+  options as readOptions,
+  text,
+} from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { GltfJson } from './gltf-json.ts';
 import { type CheckGltfOptions, verifyGltf } from './verify-gltf.ts';
@@ -10,6 +20,15 @@ const COMPRESSIONS = new Map([
   ['KHR_meshopt_compression', 'meshopt'],
 ]);
 
+const size = optional(notNegative);
+const READERS = {
+  binLength: size,
+  bufferLengths: optional(numbers),
+  fileLength: size,
+  jsonStart: size,
+  binStart: size,
+} satisfies Readers<CheckGltfOptions>;
+
 /**
  * Returns the JSON when it is sound. Throws 'file-invalid', 'file-unsupported' or 'mesh-too-large'.
  *
@@ -18,6 +37,7 @@ const COMPRESSIONS = new Map([
  * ```
  */
 export function checkGltf(value: unknown, options: CheckGltfOptions = {}): GltfJson {
+  readOptions(options, READERS);
   return inWordsAtOnce(() => verifyGltf(value, options));
 }
 
@@ -29,6 +49,8 @@ export function checkGltf(value: unknown, options: CheckGltfOptions = {}): GltfJ
  * ```
  */
 export function checkRequiredExtensions(json: GltfJson, supported: readonly string[]): void {
+  object(json, 'json', 'Give the JSON of a glTF, parsed.');
+  list(supported, 'supported', 'names of extensions', (each, label) => text(each, label));
   const required = (json.extensionsRequired ?? []) as readonly string[];
   const missing = required.find((name) => !supported.includes(name));
   if (missing === undefined) return;

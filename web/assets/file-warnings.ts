@@ -1,5 +1,7 @@
 /** What readers of simple files pass over, or, in strict reading, refuse: one rule for all formats. */
+import { options } from '../../wasm/ts/arguments.ts';
 import type { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { STRICT } from './given.ts';
 
 /** How a reader of OBJ, PLY, STL or OFF is to read. */
 export interface ReadOptions {
@@ -121,8 +123,8 @@ export class PassedOver {
   readonly #strict: boolean;
   readonly #counts = new Map<FileWarningCode, { count: number; readonly first: HandlebodyError }>();
 
-  constructor({ strict = false }: ReadOptions) {
-    this.#strict = strict;
+  constructor(given: ReadOptions) {
+    this.#strict = options(given, STRICT).strict ?? false;
   }
 
   /** One more, or `count`. `refusal` is what strict reading throws at once, unless the format allows what is passed over. */

@@ -1,6 +1,8 @@
 import type { Document, Extension } from '@gltf-transform/core';
+import { object, options as readOptions } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
+import { GLTF_READERS, gltfDocument, WRITE_READERS } from './given.ts';
 import { isGlb } from './glb-chunks.ts';
 import { createIo, type IoOptions } from './io.ts';
 import { refuseOther } from './look-alikes.ts';
@@ -28,6 +30,7 @@ const COMPRESSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
  */
 export async function readGlb(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
   const glb = ownBytes(bytes);
+  readOptions(options, GLTF_READERS);
   if (!isGlb(glb)) throw refuseOther(glb);
   return toDocument(await openGltf(glb, options), options);
 }
@@ -53,7 +56,9 @@ export interface WriteMeshOptions extends IoOptions {
 export function writeGlb(document: Document, options?: IoOptions): Promise<Uint8Array>;
 export function writeGlb(mesh: GlbMesh, options?: WriteMeshOptions): Promise<Uint8Array>;
 export async function writeGlb(from: Document | GlbMesh, options: WriteMeshOptions = {}): Promise<Uint8Array> {
-  const document = 'positions' in from ? meshDocument(from, options.name) : from;
+  readOptions(options, WRITE_READERS);
+  const mesh = object(from, 'document', 'Give a document of glTF-Transform, or { positions, triangles }.');
+  const document = 'positions' in mesh ? meshDocument(from as GlbMesh, options.name) : gltfDocument(from, 'document');
   if (document !== from && options.body) await attachBody(document, options.body);
   checkTextures(document);
   const used = document.getRoot().listExtensionsUsed();

@@ -1,5 +1,7 @@
 import { type Document, type Extension, type JSONDocument, Logger, type PlatformIO, WebIO } from '@gltf-transform/core';
+import { options as readOptions } from '../../wasm/ts/arguments.ts';
 import { BodyExtension } from './body-extension.ts';
+import { IO_READERS } from './given.ts';
 import { MeshQuantization } from './mesh-quantization.ts';
 import { PoseSpaceExtension } from './pose-space-extension.ts';
 
@@ -19,7 +21,9 @@ export interface IoOptions {
  * const bytes = await io.writeBinary(document);
  * ```
  */
-export function createIo({ extensions = [] }: IoOptions = {}): WebIO {
+export function createIo(options: IoOptions = {}): WebIO {
+  readOptions(options, IO_READERS);
+  const { extensions = [] } = options;
   const known = new Map<string, typeof Extension>();
   for (const extension of [MeshQuantization, BodyExtension, PoseSpaceExtension, ...extensions] as (typeof Extension)[]) {
     known.set(extension.EXTENSION_NAME, extension);

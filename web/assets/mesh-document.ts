@@ -1,4 +1,5 @@
 import { Document } from '@gltf-transform/core';
+import { object, text } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { TypedArray } from '../../wasm/ts/types.ts';
 import { areaNormals } from './area-normals.ts';
@@ -27,7 +28,10 @@ export interface GlbMesh {
  * const document = meshDocument(readObj(bytes), 'cow');
  * ```
  */
-export function meshDocument({ positions, triangles = new Uint32Array(), normals, uvs, origin }: GlbMesh, name = ''): Document {
+export function meshDocument(mesh: GlbMesh, name = ''): Document {
+  object(mesh, 'mesh', 'Give { positions, triangles }.');
+  text(name, 'name');
+  const { positions, triangles = new Uint32Array(), normals, uvs, origin } = mesh;
   check({ positions, triangles, normals, uvs, origin });
   const document = new Document();
   const buffer = document.createBuffer();

@@ -1,4 +1,6 @@
 import type { Document, Mesh } from '@gltf-transform/core';
+import { object } from '../../wasm/ts/arguments.ts';
+import { gltfDocument, gltfMesh } from './given.ts';
 import { PoseSpaceExtension, type PoseSpaceProperty } from './pose-space-extension.ts';
 import { type PoseSpaceData, type PoseSpaceInput, parsePoseSpace, poseSpaceDefinition } from './pose-space-schema.ts';
 import { HANDLEBODY_POSE_SPACE } from './schema.ts';
@@ -20,6 +22,9 @@ import { inWordsAtOnce } from './words-at-once.ts';
  * ```
  */
 export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceInput): PoseSpaceProperty {
+  gltfDocument(document, 'document');
+  gltfMesh(mesh, 'mesh');
+  object(poseSpace, 'poseSpace', 'Give { dimensions, examples }.');
   const definition = poseSpaceDefinition(poseSpace);
   inWordsAtOnce(() => parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) }));
   const former = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);
@@ -40,7 +45,7 @@ export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseS
  * ```
  */
 export function readPoseSpaces(document: Document): (PoseSpaceData & { mesh: Mesh })[] {
-  return document
+  return gltfDocument(document, 'document')
     .getRoot()
     .listMeshes()
     .flatMap((mesh) => {

@@ -3,6 +3,7 @@ import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from './body-codec.ts';
 import type { BodyAccessorName, BodyProperty } from './body-extension.ts';
 import { inWords } from './fault.ts';
+import { gltfDocument } from './given.ts';
 import { readMesh } from './read-mesh.ts';
 import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays } from './schema.ts';
 
@@ -18,7 +19,7 @@ import { BODY_ACCESSORS, HANDLEBODY_BODY, parseStoredHeader, type StoredArrays }
  * ```
  */
 export async function readBody(document: Document): Promise<BodyData | undefined> {
-  const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
+  const property = gltfDocument(document, 'document').getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
   if (!property) return undefined;
   const header = await inWords(() => parseStoredHeader(property.getHeader()));
   const names = Object.keys(BODY_ACCESSORS) as BodyAccessorName[];

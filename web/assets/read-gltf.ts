@@ -1,4 +1,6 @@
 import type { Document } from '@gltf-transform/core';
+import { options as readOptions } from '../../wasm/ts/arguments.ts';
+import { GLTF_READERS } from './given.ts';
 import { openGltf } from './open-gltf.ts';
 import { type FileBytes, ownBytes } from './to-bytes.ts';
 import { type ReadGltfOptions, toDocument } from './to-document.ts';
@@ -21,5 +23,7 @@ import { type ReadGltfOptions, toDocument } from './to-document.ts';
  * ```
  */
 export async function readGltf(bytes: FileBytes, options: ReadGltfOptions = {}): Promise<Document> {
-  return toDocument(await openGltf(ownBytes(bytes), options), options);
+  const file = ownBytes(bytes);
+  readOptions(options, GLTF_READERS);
+  return toDocument(await openGltf(file, options), options);
 }

@@ -1,8 +1,10 @@
 import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/core';
+import { options as readOptions } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
 import { MAX_VERTICES, type MeshRange } from './concatenate.ts';
 import type { PartMode } from './drawn-corners.ts';
+import { gltfDocument, SCENE_READERS } from './given.ts';
 import { refuseInstancing } from './gpu-instancing.ts';
 import { joinScene, type ScenePart } from './join-scene.ts';
 import type { SceneChoices } from './scene-choices.ts';
@@ -44,6 +46,8 @@ interface Source {
  * ```
  */
 export function readMesh(document: Document, choices: SceneChoices = {}): { mesh: Mesh; ranges: PrimitiveRange[] } {
+  gltfDocument(document, 'document');
+  readOptions(choices, SCENE_READERS, {}, 'choices');
   const found: ScenePart<Source>[] = [];
   const root = document.getRoot();
   const scene = root.getDefaultScene() ?? root.listScenes()[0];

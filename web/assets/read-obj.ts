@@ -37,9 +37,9 @@ const WIDTHS = { vt: 2, vn: 3 } as const;
  * const body = await hb.bake({ positions, triangles });
  * ```
  */
-export function readObj(given: FileBytes, options: ReadOptions = {}): FileMesh {
+export function readObj(bytes: FileBytes, options: ReadOptions = {}): FileMesh {
   const passed = new PassedOver(options);
-  const source = withoutPadding(textSource(toBytes(given)), passed, FORMAT);
+  const source = withoutPadding(textSource(toBytes(bytes)), passed, FORMAT);
   const fail = (line: number, what: string) => lineError(source, line, { format: FORMAT, what });
   const positions = new NumberList(new Float64Array());
   const lists = { vt: new NumberList(new Float32Array()), vn: new NumberList(new Float32Array()) };

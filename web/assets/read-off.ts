@@ -26,9 +26,9 @@ const KEYWORD = /^((?:ST|C|N|4|n)*)OFF(\d*)$/;
  * const body = await hb.bake({ positions, triangles });
  * ```
  */
-export function readOff(given: FileBytes, options: ReadOptions = {}): FileMesh {
+export function readOff(bytes: FileBytes, options: ReadOptions = {}): FileMesh {
   const passed = new PassedOver(options);
-  const source = withoutPadding(textSource(toBytes(given)), passed, FORMAT);
+  const source = withoutPadding(textSource(toBytes(bytes)), passed, FORMAT);
   const rows = new Rows(source);
   const kind = readKeyword(rows, passed);
   const { vertices, faces } = readCounts(rows);

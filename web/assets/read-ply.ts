@@ -42,9 +42,9 @@ interface Faces {
  * const body = await hb.bake({ positions, triangles });
  * ```
  */
-export function readPly(given: FileBytes, options: ReadOptions = {}): FileMesh {
+export function readPly(bytes: FileBytes, options: ReadOptions = {}): FileMesh {
   const passed = new PassedOver(options);
-  const whole = textSource(toBytes(given));
+  const whole = textSource(toBytes(bytes));
   const header = parsePlyHeader(whole, passed);
   const source = header.format === 'ascii' ? withoutPadding(whole, passed, FORMAT) : whole;
   const [element, ...others] = header.elements.filter(({ name }) => name === 'vertex');

@@ -37,12 +37,12 @@ interface Corners {
  * const body = await hb.bake({ positions, triangles });
  * ```
  */
-export function readStl(given: FileBytes, options: ReadOptions = {}): FileMesh {
+export function readStl(bytes: FileBytes, options: ReadOptions = {}): FileMesh {
   const passed = new PassedOver(options);
-  const bytes = toBytes(given);
-  const { positions, sizes, badVertex } = isBinaryStl(bytes)
-    ? readBinary(bytes, passed)
-    : readText(withoutPadding(textSource(bytes), passed, FORMAT), passed);
+  const file = toBytes(bytes);
+  const { positions, sizes, badVertex } = isBinaryStl(file)
+    ? readBinary(file, passed)
+    : readText(withoutPadding(textSource(file), passed, FORMAT), passed);
   const surface = makeSurface({
     format: FORMAT,
     positions,

@@ -49,7 +49,7 @@ function viewOf(given: unknown): Uint8Array {
   if (kind === 'SharedArrayBuffer') return new Uint8Array(given as SharedArrayBuffer).slice();
   const name = typeof given === 'string' ? 'string' : kind;
   throw new HandlebodyError('file-not-bytes', {
-    message: `A file’s bytes are wanted, and ${describe(given, name)} is given.`,
+    message: `The "bytes" of a file are wanted, and ${describe(given, name)} is given.`,
     remedy: REMEDIES[name] ?? 'Give an ArrayBuffer, a typed array, a DataView or a Buffer.',
   });
 }

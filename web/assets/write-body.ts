@@ -1,7 +1,9 @@
 import type { Document, TypedArray } from '@gltf-transform/core';
+import { object } from '../../wasm/ts/arguments.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { encodeBody } from './body-codec.ts';
 import { type BodyAccessorName, BodyExtension, type BodyProperty } from './body-extension.ts';
+import { gltfDocument } from './given.ts';
 import { readMesh } from './read-mesh.ts';
 import { BODY_ACCESSORS, checkBody, HANDLEBODY_BODY, headerOf } from './schema.ts';
 import { inWordsAtOnce } from './words-at-once.ts';
@@ -22,6 +24,8 @@ import { inWordsAtOnce } from './words-at-once.ts';
  * ```
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
+  gltfDocument(document, 'document');
+  object(body, 'body', 'Give what bake() made.');
   const header = inWordsAtOnce(() => headerOf(body));
   const checked = { ...body, ...header, mesh: readMesh(document, { reading: header.reading ?? {} }).mesh };
   inWordsAtOnce(() => checkBody(checked));
@@ -52,7 +56,7 @@ export async function attachBody(document: Document, body: BodyData): Promise<Bo
  * ```
  */
 export function detachBody(document: Document): boolean {
-  const property = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
+  const property = gltfDocument(document, 'document').getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
   if (!property) return false;
   const accessors = Object.keys(BODY_ACCESSORS).map((name) => property.getAccessor(name as BodyAccessorName));
   property.dispose();

@@ -4,6 +4,7 @@ import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, Irbf } from '../../wasm/ts/runtime.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { meshFromObject } from './geometry.ts';
+import { aim, deforming, object3D } from './given.ts';
 import type { ObjectMesh } from './object-part.ts';
 import type { SurfacePick } from './surface-pick.ts';
 
@@ -46,6 +47,8 @@ export class Deformable {
 
   /** @internal Use `deformable`. */
   constructor(object: Object3D, irbf: Irbf) {
+    object3D(object, 'object');
+    deforming(irbf, 'irbf');
     const { mesh, parts, normals } = bakedFrom(object, irbf.body);
     [this.object, this.irbf] = [object, irbf];
     this.positions = Float32Array.from(mesh.positions);
@@ -71,6 +74,7 @@ export class Deformable {
    * ```
    */
   pick(from: Raycaster | Intersection): SurfacePick | undefined {
+    aim(from, 'from');
     return this.#shown.pick(from);
   }
 

@@ -1,10 +1,15 @@
 import type { Intersection, Raycaster } from 'three';
+import { list, row } from '../../wasm/ts/arguments.ts';
+import { aim, object3D } from './given.ts';
 import { standFor } from './instances-as-mesh.ts';
 import { LiveGeometry } from './live-geometry.ts';
 import { LiveMorphs } from './live-morphs.ts';
 import type { ObjectPart } from './object-part.ts';
 import type { SurfacePick } from './surface-pick.ts';
 import { TurnedTangents } from './turned-tangents.ts';
+
+/** Made once, so that a frame allocates nothing. */
+const ANY = { finite: false } as const;
 
 /**
  * Shows deformed positions on the meshes of an object. Each part gets a geometry of its own, which shares all but positions, normals and
@@ -25,6 +30,9 @@ export class DeformedGeometry {
 
   /** Throws 'mesh-zero-extent' when a part's transform flattens it, since positions cannot be taken back through that. */
   constructor(parts: readonly ObjectPart[]) {
+    list(parts, 'parts', 'parts, such as meshFromObject() finds', (part, name) =>
+      object3D((part as ObjectPart | null)?.mesh, `${name}.mesh`),
+    );
     this.#live = new LiveGeometry(parts, { tangentsOf: TurnedTangents.of, Morphs: LiveMorphs, standFor });
     this.vertexCount = this.#live.vertexCount;
   }
@@ -37,6 +45,9 @@ export class DeformedGeometry {
    * Throws 'invalid-shape' when an array has another length.
    */
   update(positions: ArrayLike<number>, normals?: ArrayLike<number>): void {
+    const length = 3 * this.vertexCount;
+    row(positions, 'positions', length, ANY);
+    if (normals !== undefined) row(normals, 'normals', length, ANY);
     this.#live.update(positions, normals);
   }
 
@@ -51,6 +62,7 @@ export class DeformedGeometry {
    * ```
    */
   pick(from: Raycaster | Intersection): SurfacePick | undefined {
+    aim(from, 'from');
     return this.#live.pick(from);
   }
 

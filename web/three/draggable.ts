@@ -8,10 +8,21 @@ import {
   Vector2,
   Vector3,
 } from 'three';
+import {
+  callback,
+  flag,
+  list,
+  optional,
+  type Readers,
+  options as readOptions,
+  object as record,
+  whole,
+} from '../../wasm/ts/arguments.ts';
 import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
 import { farthestVertices } from './farthest.ts';
+import { aim, camera, container, numberOf, object3D, solver, vector3 } from './given.ts';
 import { HandleOverlay, type HandleOverlayOptions } from './handle-overlay.ts';
 import type { BareHandles } from './handles.ts';
 import { LiveBody } from './live-body.ts';
@@ -61,6 +72,22 @@ export const DRAGGABLE_DEFAULTS = { iterations: 4, count: 6 } as const;
 /** A handle this near to rest, in diagonals, is at rest. */
 const AT_REST = 5e-4;
 
+const READERS = {
+  hb: solver,
+  camera,
+  container,
+  handles: optional((value, name) =>
+    list(value, name, 'handles', (each, label) => record(each, label, 'Give { vertex } or { at }.')),
+  ),
+  unstyled: optional(flag),
+  iterations: optional(whole(1, 1e6)),
+  onWake: optional(callback),
+  onMove: optional(callback),
+  onSelect: optional(callback),
+  onDrag: optional(callback),
+  onError: optional(callback),
+} satisfies Readers<DraggableOptions>;
+
 /**
  * Makes a baked model follow its handles: it owns the handles over the canvas, the solver's targets in the object's own space, solving, and
  * the object's geometry. The object may stand, turn and be scaled anywhere in the scene, and go on moving; so may its parts below it, and
@@ -77,6 +104,9 @@ const AT_REST = 5e-4;
  * ```
  */
 export function draggable(object: Object3D, body: BodyData, options: DraggableOptions): Draggable {
+  object3D(object, 'object');
+  record(body, 'body', 'Give what bake() made, or a baked file holds.');
+  readOptions(options, READERS);
   return new Draggable(object, body, {
     ...options,
     makeOverlay: (overlay) => new HandleOverlay(overlay),
@@ -155,6 +185,7 @@ export class Draggable {
 
   /** Other handles, at rest. The former ones stay where these are refused. Throws what `Irbf.setHandles` throws. */
   setHandles(handles: readonly DraggableHandle[]): void {
+    READERS.handles(handles, 'handles');
     this.#hold(
       handles,
       handles.map((handle) => this.#live.rest(handle)),
@@ -163,6 +194,7 @@ export class Draggable {
 
   /** One more handle, on its point as that is now; the others keep their targets. Throws what `Irbf.setHandles` throws. */
   addHandle(handle: DraggableHandle): void {
+    record(handle, 'handle', 'Give { vertex } or { at }.');
     const targets = this.#handles.map((_, i) => this.target(i));
     // A vertex that is not there is for the solver to refuse.
     this.#hold([...this.#handles, handle], [...targets, this.#live.image(handle)]);
@@ -170,21 +202,22 @@ export class Draggable {
 
   /** Where handle `i` is to go, in the object's space. */
   target(i: number, out = new Vector3()): Vector3 {
-    return this.#live.target(i, out);
+    return this.#live.target(numberOf(i, 'i', this.#handles.length), vector3(out, 'out'));
   }
 
   setTarget(i: number, target: Vector3): void {
-    this.#live.setTarget(i, target);
+    this.#live.setTarget(numberOf(i, 'i', this.#handles.length), vector3(target, 'target'));
     this.#wake();
   }
 
   /** Where vertex `v` is now, in the object's space. */
   vertex(v: number, out = new Vector3()): Vector3 {
-    return this.#live.vertex(v, out);
+    return this.#live.vertex(numberOf(v, 'v', this.positions.length / 3), vector3(out, 'out'));
   }
 
   /** Puts a handle back to rest, or all of them. */
   reset(i?: number): void {
+    if (i !== undefined) numberOf(i, 'i', this.#handles.length);
     for (const k of i === undefined ? this.#rest.keys() : [i]) this.#put(k, this.#place.copy(this.#rest[k] as Vector3));
   }
 
@@ -220,6 +253,7 @@ export class Draggable {
    * ```
    */
   pick(from: Pick<PointerEvent, 'clientX' | 'clientY'> | Raycaster | Intersection): SurfacePick | undefined {
+    aim(from, 'from');
     if ('intersectObject' in from || 'object' in from) return this.#shown.pick(from);
     const { left, top, width, height } = this.#options.container.getBoundingClientRect();
     const { camera } = this.#options;

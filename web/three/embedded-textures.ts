@@ -1,5 +1,6 @@
 import { Loader, type Texture } from 'three';
 import type { GLTFLoader, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { refused } from '../../wasm/ts/arguments.ts';
 
 /** How a texture names its image besides its own `source`. */
 const EXTENSIONS = ['EXT_texture_webp', 'EXT_texture_avif'];
@@ -13,6 +14,7 @@ const EXTENSIONS = ['EXT_texture_webp', 'EXT_texture_avif'];
  * ```
  */
 export function embeddedTextures(loader: GLTFLoader): GLTFLoader {
+  if (typeof (loader as GLTFLoader | null)?.register !== 'function') throw refused('loader', loader, 'Give a GLTFLoader.');
   // A plugin of an extension's name takes the place of the loader's own.
   for (const extension of [undefined, ...EXTENSIONS]) loader.register((parser) => pluginFor(parser, extension));
   return loader;

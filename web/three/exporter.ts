@@ -2,8 +2,10 @@
  * Handlebody's two glTF extensions for three.js' GLTFExporter, which writes none that it does not know: without this plugin an exported
  * model has lost its body and its pose spaces.
  */
+
 import type { Object3D } from 'three';
 import type { GLTFExporterPlugin, GLTFWriter } from 'three/addons/exporters/GLTFExporter.js';
+import { object as record } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, TypedArray } from '../../wasm/ts/types.ts';
@@ -61,7 +63,12 @@ interface WriterJson {
  * const glb = await exporter.parseAsync(gltf.scene, { binary: true });
  * ```
  */
-export function handlebodyExporterPlugin({ body, poseSpaces = [] }: ExportedData): (writer: GLTFWriter) => GLTFExporterPlugin {
+export function handlebodyExporterPlugin(data: ExportedData): (writer: GLTFWriter) => GLTFExporterPlugin {
+  const { body, poseSpaces = [] } = record(
+    data,
+    'data',
+    'Give { body, poseSpaces }, as handlebodyData(gltf) does.',
+  ) as ExportedData;
   return (given) => {
     const writer = given as unknown as Writer;
     return {

@@ -1,11 +1,14 @@
 /** three.js object trees to the solver's typed arrays. */
 import type { BufferAttribute, InterleavedBufferAttribute, LOD, Object3D, Points, Mesh as ThreeMesh } from 'three';
+import { options } from '../../wasm/ts/arguments.ts';
 import type { DrawnRun } from '../assets/drawn-corners.ts';
+import { SCENE_READERS } from '../assets/given.ts';
 import { joinScene, morphOffset, type ScenePart } from '../assets/join-scene.ts';
 import type { SceneChoices } from '../assets/scene-choices.ts';
 import { multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
 import { drawnRuns, isDisplaced, isInvisible, unreadable } from './drawn-runs.ts';
+import { object3D } from './given.ts';
 import { indicesOf, instancesOf, isInstanced, type ObjectInstance } from './instances.ts';
 import { morphDisplacements } from './morphs.ts';
 import { collectNormals, isMesh, isPoints, isSkinned, type ObjectMesh, type ObjectPart } from './object-part.ts';
@@ -36,6 +39,8 @@ type Source = Pick<ObjectPart, 'mesh' | 'instance'>;
  * ```
  */
 export function meshFromObject(object: Object3D, choices: SceneChoices = {}): ObjectMesh {
+  object3D(object, 'object');
+  options(choices, SCENE_READERS, {}, 'choices');
   const plain = asksForMore(choices) ? undefined : plainObject(object, choices.reading?.origin);
   return plain ?? readParts(object, choices);
 }

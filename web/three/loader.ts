@@ -7,8 +7,10 @@
  * const { body, poseSpaces } = handlebodyData(gltf);
  * ```
  */
+
 import type { Object3D, Mesh as ThreeMesh } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { object as record } from '../../wasm/ts/arguments.ts';
 import type { BodyData } from '../../wasm/ts/types.ts';
 import { decodeBody } from '../assets/body-codec.ts';
 import { Fault, inWords } from '../assets/fault.ts';
@@ -38,7 +40,12 @@ export interface HandlebodyData {
  * ```
  */
 export function handlebodyData(gltf: Pick<GLTF, 'userData'>): HandlebodyData {
-  return (gltf.userData.handlebody as HandlebodyData | undefined) ?? { poseSpaces: [] };
+  const { userData } = record(gltf, 'gltf', 'Give what GLTFLoader loads.') as unknown as GLTF;
+  return (
+    (record(userData, 'gltf.userData', 'Give what GLTFLoader loads.').handlebody as HandlebodyData | undefined) ?? {
+      poseSpaces: [],
+    }
+  );
 }
 
 /**

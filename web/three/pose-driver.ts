@@ -1,5 +1,7 @@
 import type { Mesh, Object3D } from 'three';
+import { list, object as record } from '../../wasm/ts/arguments.ts';
 import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
+import { object3D, solver } from './given.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
 import type { LoadedPoseSpace } from './loader.ts';
 
@@ -26,6 +28,10 @@ interface Follower {
  * ```
  */
 export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace, object?: Object3D): PoseDriver {
+  solver(hb, 'hb');
+  const { meshes } = record(space, 'space', 'Give one of handlebodyData(gltf).poseSpaces.');
+  list(meshes, 'space.meshes', 'meshes', object3D as (mesh: unknown, name: string) => unknown);
+  if (object !== undefined) object3D(object, 'object');
   return new PoseDriver(hb, space, object);
 }
 

@@ -1,8 +1,13 @@
+import { callback, optional, options as readOptions } from '../../wasm/ts/arguments.ts';
+import { BAKE_DEFAULTS, BAKE_READERS } from '../../wasm/ts/bake-options.ts';
+import { meshLike } from '../../wasm/ts/mesh-arrays.ts';
 import type { BakeOptions, BakeShape, BodyData } from '../../wasm/ts/types.ts';
 import type { BakeQuestion, PostedBakeOptions } from './answer.ts';
 import { type InWorkerOptions, inWorker } from './in-worker.ts';
 import { arraysOf, ownCopy } from './own-copy.ts';
 import { scriptText } from './script-text.ts';
+
+const READERS = { ...BAKE_READERS, worker: optional(callback), onFallback: optional(callback) };
 
 /** `worker`: its script must import "handlebody/bake-worker" or be that file. */
 export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 'worker' | 'onFallback'> {}
@@ -21,6 +26,8 @@ export interface BakeInWorkerOptions extends BakeOptions, Pick<InWorkerOptions, 
  * ```
  */
 export async function bakeInWorker(shape: BakeShape, options: BakeInWorkerOptions = {}): Promise<BodyData> {
+  readOptions(options, READERS, BAKE_DEFAULTS);
+  meshLike(shape, 'shape');
   const { worker = defaultWorker, onFallback, ...bakeOptions } = options;
   const { signal, onProgress, onWarning, ...posted } = bakeOptions;
   const question: BakeQuestion = ownCopy({ shape, options: posted satisfies PostedBakeOptions });
