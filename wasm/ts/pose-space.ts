@@ -1,6 +1,7 @@
 import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
 import type { Heap } from './heap.ts';
+import type { Owned } from './owned.ts';
 import type { TypedArray } from './types.ts';
 
 /** `cardinal`: radial basis functions with a polynomial tail. `normalized`: weights closer to [0, 1], but favors isolated examples. */
@@ -89,7 +90,7 @@ export class PoseSpace {
   readonly #weights: Float64Array;
   /** shapeLength × examples: all that one number of the result needs is contiguous. */
   readonly #shapes: Float64Array;
-  #space: number;
+  readonly #owned: Owned;
 
   /** @internal Use `Handlebody.poseSpace`. */
   constructor(heap: Heap, options: PoseSpaceOptions) {
@@ -113,7 +114,7 @@ export class PoseSpace {
     });
 
     this.#heap = heap;
-    this.#space = heap.scope((scratch) => {
+    const space = heap.scope((scratch) => {
       const from = scratch.putF64(places);
       const out = scratch.reserve(4);
       try {
@@ -123,9 +124,10 @@ export class PoseSpace {
       }
       return heap.u32(out, 1)[0] ?? 0;
     });
+    this.#owned = heap.own(this, 'hb_pose_space_free', space);
     // Allocated once, so that a frame allocates nothing.
-    this.#query = heap.alloc(dimensions.length * 8);
-    this.#weightsAt = heap.alloc(count * 8);
+    this.#query = this.#owned.alloc(dimensions.length * 8);
+    this.#weightsAt = this.#owned.alloc(count * 8);
   }
 
   /** The examples' weights at a point of the pose space, in the order of `names`. They sum to 1 and may be slightly negative. */
@@ -167,12 +169,7 @@ export class PoseSpace {
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    if (this.#space === 0) return;
-    const space = this.#space;
-    this.#space = 0;
-    this.#heap.release((e) => e.hb_pose_space_free(space));
-    this.#heap.free(this.#query);
-    this.#heap.free(this.#weightsAt);
+    this.#owned.release();
   }
 
   [Symbol.dispose](): void {
@@ -181,7 +178,7 @@ export class PoseSpace {
 
   /** Computes the weights at `at` into `#weights`. */
   #solve(at: ArrayLike<number>): void {
-    const space = this.#space;
+    const space = this.#owned.pointer;
     if (space === 0) {
       throw new HandlebodyError('disposed', {
         message: 'This pose space was disposed of and cannot be used any more.',

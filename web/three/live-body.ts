@@ -26,12 +26,12 @@ export interface Round {
 
 /**
  * Deformations under way of each body of each solver. Copies of a model on one page share what depends on no handle, which is most of a
- * body's memory: each new one shares with any that is still there.
+ * body's memory: each new one shares with any that is still there. Those that are forgotten may be collected.
  */
-const alive = new WeakMap<HandlebodyRuntime, WeakMap<BodyData, Set<Irbf>>>();
+const alive = new WeakMap<HandlebodyRuntime, WeakMap<BodyData, Set<WeakRef<Irbf>>>>();
 
-function deformationsOf(solver: HandlebodyRuntime, data: BodyData): Set<Irbf> {
-  const bodies = alive.get(solver) ?? new WeakMap<BodyData, Set<Irbf>>();
+function deformationsOf(solver: HandlebodyRuntime, data: BodyData): Set<WeakRef<Irbf>> {
+  const bodies = alive.get(solver) ?? new WeakMap<BodyData, Set<WeakRef<Irbf>>>();
   const deformations = bodies.get(data) ?? new Set();
   alive.set(solver, bodies.set(data, deformations));
   return deformations;
@@ -43,8 +43,8 @@ export class LiveBody {
   readonly positions: Float32Array;
   readonly normals: Float32Array;
   readonly #irbf: Irbf;
-  /** Its own among them. */
-  readonly #deformations: Set<Irbf>;
+  /** Ends others' sharing with it. */
+  readonly #leave: () => void;
   #handles: readonly Handle[] = [];
   /** Targets of the last solution. */
   #good = new Float64Array();
@@ -53,10 +53,17 @@ export class LiveBody {
     this.data = data;
     this.positions = new Float32Array(data.mesh.positions);
     this.normals = new Float32Array(data.mesh.positions.length);
-    this.#deformations = deformationsOf(solver, data);
-    const [other] = this.#deformations;
-    this.#irbf = other ? other.share() : solver.irbf(data);
-    this.#deformations.add(this.#irbf);
+    const deformations = deformationsOf(solver, data);
+    let other: Irbf | undefined;
+    for (const each of deformations) {
+      other = each.deref();
+      if (other) break;
+      deformations.delete(each);
+    }
+    this.#irbf = other?.share() ?? solver.irbf(data);
+    const own = new WeakRef(this.#irbf);
+    deformations.add(own);
+    this.#leave = () => deformations.delete(own);
     if (restNormals) this.#irbf.setRestNormals(restNormals);
   }
 
@@ -132,7 +139,7 @@ export class LiveBody {
   }
 
   dispose(): void {
-    this.#deformations.delete(this.#irbf);
+    this.#leave();
     this.#irbf.dispose();
   }
 }
