@@ -8,7 +8,7 @@ export type FreeName = Extract<keyof Exports, `hb_${string}_free`>;
 interface Memory {
   readonly kernels: { remove(id: number): void };
   alloc(bytes: number): number;
-  release(run: (exports: Exports) => void): void;
+  release(run: (exports: never) => void): void;
   expectUsable(): unknown;
 }
 
@@ -52,7 +52,7 @@ export class Owned {
     const pointer = this.#pointer;
     if (pointer === 0) return;
     // In a kernel this throws, and nothing has changed then: what is running may need it.
-    this.#heap.release((e) => {
+    this.#heap.release((e: Exports) => {
       e[this.#free](pointer);
       for (const block of this.blocks) e.hb_release(block);
     });
