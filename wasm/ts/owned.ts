@@ -1,5 +1,5 @@
 /** What objects hold of the solver's memory, and how it comes back when they are forgotten. */
-import type { Exports } from './abi.generated.ts';
+import type { Exports, RuntimeExports } from './abi.generated.ts';
 
 /** The functions that free an object: called by name, since a function made beside an object would hold it. */
 export type FreeName = Extract<keyof Exports, `hb_${string}_free`>;
@@ -8,7 +8,7 @@ export type FreeName = Extract<keyof Exports, `hb_${string}_free`>;
 interface Memory {
   readonly kernels: { remove(id: number): void };
   alloc(bytes: number): number;
-  release(run: (exports: never) => void): void;
+  release(run: (exports: RuntimeExports) => void): void;
   expectUsable(): unknown;
 }
 
@@ -52,8 +52,8 @@ export class Owned {
     const pointer = this.#pointer;
     if (pointer === 0) return;
     // In a kernel this throws, and nothing has changed then: what is running may need it.
-    this.#heap.release((e: Exports) => {
-      e[this.#free](pointer);
+    this.#heap.release((e) => {
+      (e as Exports)[this.#free](pointer);
       for (const block of this.blocks) e.hb_release(block);
     });
     this.#pointer = 0;

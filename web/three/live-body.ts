@@ -42,9 +42,10 @@ export class LiveBody {
   readonly data: BodyData;
   readonly positions: Float32Array;
   readonly normals: Float32Array;
-  readonly #irbf: Irbf;
+  #irbf!: Irbf;
   /** Ends others' sharing with it. */
-  readonly #leave: () => void;
+  #leave!: () => void;
+  readonly #restNormals: Float32Array | undefined;
   #handles: readonly Handle[] = [];
   /** Targets of the last solution. */
   #good = new Float64Array();
@@ -53,18 +54,33 @@ export class LiveBody {
     this.data = data;
     this.positions = new Float32Array(data.mesh.positions);
     this.normals = new Float32Array(data.mesh.positions.length);
-    const deformations = deformationsOf(solver, data);
+    this.#restNormals = restNormals;
+    this.#join(solver);
+  }
+
+  /** As it was, by another solver: the one that it had has ended. Throws what `irbf` and `setHandles` throw. */
+  renew(solver: HandlebodyRuntime): void {
+    this.dispose();
+    this.#join(solver);
+    if (this.#handles.length === 0) return;
+    this.#irbf.setHandles(this.#handles);
+    this.#irbf.targets.set(this.#good);
+    this.#irbf.solve();
+  }
+
+  #join(solver: HandlebodyRuntime): void {
+    const deformations = deformationsOf(solver, this.data);
     let other: Irbf | undefined;
     for (const each of deformations) {
       other = each.deref();
       if (other) break;
       deformations.delete(each);
     }
-    this.#irbf = other?.share() ?? solver.irbf(data);
+    this.#irbf = other?.share() ?? solver.irbf(this.data);
     const own = new WeakRef(this.#irbf);
     deformations.add(own);
     this.#leave = () => deformations.delete(own);
-    if (restNormals) this.#irbf.setRestNormals(restNormals);
+    if (this.#restNormals) this.#irbf.setRestNormals(this.#restNormals);
   }
 
   /** Where a handle is at rest, model units. */
