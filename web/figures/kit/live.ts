@@ -445,7 +445,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #failed(error: unknown, asked: Shown<C>): void {
     const again = () => this.#choose(asked);
-    if (!isAbort(error)) this.#tell(error, error instanceof NotFetched ? again : undefined, asked);
+    if (!isAbort(error)) this.#tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {
       this.element.dataset.state = 'failed';
@@ -457,8 +457,8 @@ export class Live<C extends Channels, M extends Disposable> {
     else this.#fallBack(error);
   }
 
-  /** Where the solver has ended, the pictures stay, and `asked`, the state, is made again by another one. */
-  #tell(error: unknown, again?: () => void, asked?: Shown<C>): void {
+  /** Where the solver has ended, the pictures stay until what the state says is made by another one. */
+  #tell(error: unknown, again?: () => void): void {
     if (isEnd(error)) this.#ended = this.#hb;
     tellOf(
       error,
@@ -469,8 +469,7 @@ export class Live<C extends Channels, M extends Disposable> {
         this.#made?.dispose?.();
         this.#made = undefined;
         this.#unmade = true;
-        if (asked) this.#choose(asked);
-        else this.#stir();
+        this.#stir();
       },
     );
   }
