@@ -7,6 +7,7 @@ import type { HandleBodyElement, HandleFigureElement, PoseSpaceElement } from '.
 import { ball, glb } from './support/files.ts';
 import { violations } from './support/manners.ts';
 import { otherSite } from './support/other-site.ts';
+import { stoppable } from './support/stoppable.ts';
 import { frames, launch, loseContext, soon } from './support/studio.ts';
 import { eventsOf, loaded, tagPage } from './support/tag-page.ts';
 
@@ -255,6 +256,154 @@ describe('manners on the page', () => {
           return context;
         } as never;
       },
+    });
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    const dragged = await still(page, PAW);
+    await loseContext(page);
+    await frames(page, 6);
+    expect(apart(await still(page, PAW), dragged)).toBeLessThan(1e-4);
+    expect(await page.locator('handle-body .note').isVisible()).toBe(false);
+  });
+});
+
+describe('what goes wrong', () => {
+  const POSTER = '<img slot="poster" src="data:image/gif;base64,R0lGODlhAQABAAAAACw=" alt="">';
+  it.each([
+    ['a file that is not there', 'none.glb', 'file-unreadable', {}],
+    ['a web page instead of a model', 'page.glb', 'file-not-glb', { 'page.glb': '<!doctype html><title>404</title>' }],
+    ['half a model', 'half.glb', 'file-truncated', { 'half.glb': raw['ball.glb'].subarray(0, 400) }],
+  ])('%s is said in place and as an event, and the poster stays', async (_, src, code, files) => {
+    const { page } = await tagPage(browser, `<handle-body src="${src}" alt="A dog" ${SIZE}>${POSTER}</handle-body>`, { files });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', code]]);
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    expect(await violations(page)).toEqual([]);
+  });
+
+  it('a model of another site that does not allow it is told of, with the remedy', async () => {
+    const other = await otherSite((_, response) => {
+      response.writeHead(200, { 'content-type': 'model/gltf-binary' });
+      response.end(raw['ball.glb']);
+    });
+    const { page } = await tagPage(browser, `<handle-body src="${other}ball.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`);
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'file-unreadable']]);
+    expect(await page.locator('handle-body [part=message]').textContent()).toContain('Access-Control-Allow-Origin');
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+  });
+
+  it.each([
+    ['loading="soon"', 'unknown-value'],
+    ['reveal="click"', 'unknown-value'],
+    ['camera="left"', 'invalid-camera'],
+    ['views="It looks at you"', 'invalid-views'],
+    ['handles="nose"', 'invalid-handles'],
+  ])(
+    'an attribute that says nothing known is quoted, and the poster stays; set later, the picture: %s',
+    async (attribute, code) => {
+      const [, name = '', value = ''] = attribute.match(/(\w+)="(.*)"/) ?? [];
+      const { page } = await tagPage(
+        browser,
+        `<handle-body src="dog.glb" alt="A dog" ${attribute} ${SIZE}>${POSTER}</handle-body>`,
+      );
+      await page.locator('handle-body [part=message]').waitFor();
+      expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', code]]);
+      expect(await page.locator('handle-body [part=message]').textContent()).toContain(`“${value}”`);
+      expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+      await page.evaluate((known) => document.querySelector('handle-body')?.removeAttribute(known), name);
+      await page.getByRole('button', { name: 'Try again' }).click();
+      await loaded(page);
+      await page.evaluate((known) => document.querySelector('handle-body')?.setAttribute(...known), [name, value] as const);
+      await soon(async () => (await eventsOf(page)).at(-1)?.[1]?.code).toBe(code);
+      expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+      expect(await page.locator('handle-body [part=canvas]').count()).toBe(1);
+    },
+  );
+
+  it('without WebGL a model is told of, and a figure that needs none works', async () => {
+    const tags = `${dog()}<handle-figure name="course-12"></handle-figure>`;
+    const { page } = await tagPage(browser, tags, {
+      before: () => {
+        const original = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: unknown[]) {
+          return /webgl/.test(String(args[0])) ? null : (original as (...all: unknown[]) => unknown).apply(this, args);
+        } as never;
+      },
+    });
+    await loaded(page, 'handle-figure');
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).filter(([type]) => type === 'error').map(([, detail]) => detail?.code)).toEqual([
+      'webgl-unavailable',
+    ]);
+    expect(await page.locator('handle-figure .figure').getAttribute('data-state')).toBe('ready');
+  });
+
+  it('handles that are none are quoted, and the body keeps its former ones', async () => {
+    const { page } = await tagPage(browser, dog());
+    await loaded(page);
+    for (const [text, code] of [
+      ['nose', 'invalid-handles'],
+      ['99999999', 'handle-out-of-range'],
+      ['Far: 50 50 50', 'handle-outside'],
+    ] as const) {
+      await page.evaluate((handles) => document.querySelector('handle-body')?.setAttribute('handles', handles), text);
+      await page.locator('handle-body [part=message]').waitFor();
+      expect((await eventsOf(page)).at(-1)?.[1]?.code).toBe(code);
+      expect(await page.locator('handle-body [part=handle]').count()).toBe(2);
+    }
+    await page.evaluate((v) => document.querySelector('handle-body')?.setAttribute('handles', `Tail: ${v}`), 3169);
+    await soon(() => page.locator('handle-body [part=handle]').count()).toBe(1);
+    expect(await page.locator('handle-body [part=message]').isVisible()).toBe(false);
+  });
+
+  it('a model that cannot be baked leaves the poster, or what was shown before', async () => {
+    const broken = { 'broken.glb': glb({ positions: [...positions.slice(0, -1), Number.NaN], indices }) };
+    const { page } = await tagPage(browser, `<handle-body src="broken.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`, {
+      files: broken,
+    });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('src', 'dog.glb'));
+    await loaded(page);
+    await drag(page, 0, 30, -40);
+    await page.evaluate(() => document.querySelector('handle-body')?.setAttribute('src', 'broken.glb'));
+    await page.locator('handle-body [part=message]').waitFor();
+    expect(await page.locator('handle-body [part=canvas]').count()).toBe(1);
+    expect(await page.locator('handle-body [part=handle]').count()).toBe(6);
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(false);
+  });
+
+  it('a worker that is killed in mid-bake is told of, and Try again bakes', async () => {
+    const { page } = await tagPage(browser, `<handle-body src="ball.glb" alt="A ball" ${SIZE}>${POSTER}</handle-body>`, {
+      files: raw,
+      before: () => {
+        const workers: Worker[] = [];
+        Object.assign(globalThis, {
+          Worker: class extends Worker {
+            constructor(...args: ConstructorParameters<typeof Worker>) {
+              super(...args);
+              workers.push(this);
+              this.addEventListener('message', ({ data }) => {
+                if (data.type === 'progress' && workers.length === 1) this.terminate();
+              });
+            }
+          },
+        });
+      },
+    });
+    await page.locator('handle-body [part=message]').waitFor();
+    expect((await eventsOf(page)).map(([type, detail]) => [type, detail?.code])).toEqual([['error', 'internal']]);
+    expect(await page.locator('handle-body [part=message]').textContent()).toContain('The worker stopped');
+    expect(await page.locator('handle-body [part=poster]').isVisible()).toBe(true);
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await loaded(page);
+    expect(await handle(page, 5).count()).toBe(1);
+  });
+
+  it('a solver that stops is told of, the picture stays, and Try again brings the body back as it was, by another one', async () => {
+    const { page } = await tagPage(browser, dog(), {
+      before: stoppable,
     });
     await loaded(page);
     await drag(page, 0, 30, -40);

@@ -3,6 +3,7 @@ import { callback, flag, named, number, optional, type Readers, options as readO
 import { HandlebodyError, throwIfAborted } from './errors.ts';
 import type { Heap } from './heap.ts';
 import { MESH_READERS, type MeshOptions } from './mesh-warnings.ts';
+import type { Owned } from './owned.ts';
 import { putMesh, type SimplexMesh } from './simplex-mesh.ts';
 import { MESH_DEFAULTS, SoundMesh } from './sound-mesh.ts';
 import { runStepped, type SteppedOptions } from './stepped.ts';
@@ -99,7 +100,7 @@ export class BiharmonicWeights {
   readonly vertexOf: Uint32Array;
   readonly #heap: Heap<Exports>;
   readonly #mesh: SoundMesh;
-  #object: number;
+  readonly #owned: Owned;
   #vertices: readonly (readonly number[])[] = [];
   readonly #bounded: boolean;
   #weights: Float64Array = new Float64Array();
@@ -119,12 +120,13 @@ export class BiharmonicWeights {
     this.#heap = heap;
     this.#mesh = made;
     this.#bounded = bounded;
-    this.#object = heap.scope((scratch) => {
+    const object = heap.scope((scratch) => {
       const shape = putMesh(heap, scratch, made.sound);
       const out = scratch.reserve(4);
       heap.check((e) => e.hb_skinning_weights_create(shape, order, MASSES.indexOf(mass), out));
       return heap.u32(out, 1)[0] ?? 0;
     });
+    this.#owned = heap.own(this, 'hb_skinning_weights_free', object);
     try {
       this.setHandles(handles);
     } catch (error) {
@@ -256,10 +258,7 @@ export class BiharmonicWeights {
 
   /** Gives the memory back. Calling it again does nothing; calling anything else but `weights` afterwards throws 'disposed'. */
   dispose(): void {
-    const object = this.#object;
-    if (object === 0) return;
-    this.#object = 0;
-    this.#heap.release((e) => e.hb_skinning_weights_free(object));
+    this.#owned.release();
   }
 
   [Symbol.dispose](): void {
@@ -303,7 +302,8 @@ export class BiharmonicWeights {
   }
 
   get #handle(): number {
-    if (this.#object !== 0) return this.#object;
+    const { pointer } = this.#owned;
+    if (pointer !== 0) return pointer;
     throw new HandlebodyError('disposed', {
       message: 'These weights were disposed of and cannot be computed any more.',
       remedy: 'Make new ones with biharmonicWeights(mesh, handles).',

@@ -2,6 +2,7 @@ import type { Exports } from './abi.generated.ts';
 import { checkRoom, indices, type Numbers, named, numbers, options, type Reader, type Readers, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
+import type { Owned } from './owned.ts';
 import type { TypedArray } from './types.ts';
 
 /** What lies beyond the ends: nothing, zeros, the ends' own values (no slope), or the other end. */
@@ -63,7 +64,7 @@ export class DiscreteGreen {
   readonly #heap: Heap<Exports>;
   readonly #rows: number;
   readonly #matrices = new Map<number, GridMatrix>();
-  #handle: number;
+  readonly #owned: Owned;
 
   /** @internal Use `Handlebody.discreteGreen`. */
   constructor(heap: Heap<Exports>, given: DiscreteGreenOptions) {
@@ -91,7 +92,7 @@ export class DiscreteGreen {
     this.nullity = made.nullity;
     this.#heap = heap;
     this.#rows = made.rows;
-    this.#handle = made.handle;
+    this.#owned = heap.own(this, 'hb_discrete_green_free', made.handle);
   }
 
   /** D. */
@@ -128,11 +129,8 @@ export class DiscreteGreen {
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    const handle = this.#handle;
-    if (handle === 0) return;
-    this.#handle = 0;
+    this.#owned.release();
     this.#matrices.clear();
-    this.#heap.release((e) => e.hb_discrete_green_free(handle));
   }
 
   [Symbol.dispose](): void {
@@ -140,7 +138,8 @@ export class DiscreteGreen {
   }
 
   #alive(): number {
-    if (this.#handle !== 0 && !this.#heap.disposed) return this.#handle;
+    const { pointer } = this.#owned;
+    if (pointer !== 0) return pointer;
     throw new HandlebodyError('disposed', {
       message: 'This grid was disposed of and cannot be used any more.',
       remedy: 'Make a new one with discreteGreen(options).',

@@ -1,6 +1,7 @@
 import { CULPRIT_KINDS, ERROR_CODES, LAYOUT, type RuntimeExports } from './abi.generated.ts';
 import { type Culprit, HandlebodyError } from './errors.ts';
 import { HostKernels } from './host-kernels.ts';
+import { type FreeName, Owned } from './owned.ts';
 
 type NumberArray = ArrayLike<number> & { readonly length: number };
 
@@ -16,6 +17,11 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
   #exports: E | undefined;
   #trapped: unknown;
   #running = false;
+  /** Gives back what forgotten objects held; where there is none such, only `dispose()` does. */
+  readonly #registry =
+    typeof FinalizationRegistry === 'function' ? new FinalizationRegistry<Owned>((owned) => this.#forget(owned)) : undefined;
+  /** Forgotten in the middle of a call, as where a kernel lets events in. */
+  readonly #forgotten: Owned[] = [];
 
   constructor(exports: E, kernels = new HostKernels()) {
     this.#exports = exports;
@@ -76,6 +82,17 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     if (pointer !== 0 && this.#trapped === undefined) this.#exports?.hb_release(pointer);
   }
 
+  /**
+   * What `owner` holds from now on: what the solver made, as many blocks, and a user of the kernel of that number. Released by the owner's
+   * `dispose()`, or when the owner is forgotten; and at once where a block cannot be had.
+   */
+  own(owner: object, free: FreeName, pointer: number, { blocks = [], kernel = 0 }: Owning = {}): Owned {
+    const owned = new Owned(this, free, pointer, kernel);
+    for (const bytes of blocks) owned.alloc(bytes);
+    this.#registry?.register(owner, owned);
+    return owned;
+  }
+
   /** Calls what frees an object; with an instance that has ended, its objects are gone already. */
   release(run: (exports: E) => void): void {
     if (this.usable) this.call(run);
@@ -83,8 +100,7 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
 
   /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
   call<T>(run: (exports: E) => T): T {
-    const exports = this.#alive();
-    if (this.#trapped !== undefined) throw this.#poisoned();
+    const exports = this.expectUsable();
     if (this.#running) {
       throw new HandlebodyError('invalid-option', {
         message: 'A kernel called the solver that was calling it.',
@@ -100,7 +116,16 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
       throw this.#poisoned();
     } finally {
       this.#running = false;
+      if (this.#forgotten.length > 0) for (const owned of this.#forgotten.splice(0)) this.#forget(owned);
     }
+  }
+
+  /** Runs in a turn of its own, where nobody would hear of an error: an instance that stops here says so at the next call. */
+  #forget(owned: Owned): void {
+    try {
+      if (this.#running) this.#forgotten.push(owned);
+      else owned.release();
+    } catch {}
   }
 
   /** Calls a function that returns a status; throws its error. */
@@ -119,6 +144,12 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     } finally {
       scratch.release();
     }
+  }
+
+  /** Throws 'disposed' or 'wasm-trapped' where the instance has ended. */
+  expectUsable(): E {
+    if (this.#trapped !== undefined && this.#exports) throw this.#poisoned();
+    return this.#alive();
   }
 
   #alive(): E {
@@ -155,6 +186,12 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
       culprit,
     });
   }
+}
+
+interface Owning {
+  /** Bytes of each. */
+  readonly blocks?: readonly number[];
+  readonly kernel?: number;
 }
 
 /** Memory for the arguments of one call. */

@@ -2,6 +2,7 @@ import type { RuntimeExports } from './abi.generated.ts';
 import { callback, checkRoom, type Numbers, notNumber, numbers, optional, type Readers, whole } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
+import type { Owned } from './owned.ts';
 import type { RbfWarning } from './rbf-report.ts';
 import type { TypedArray } from './types.ts';
 
@@ -76,8 +77,8 @@ export abstract class Interpolant {
 
   /** @internal */
   protected readonly heap: Heap;
-  #handle: number;
-  #scratch = 0;
+  /** @internal Its block is scratch memory. */
+  protected readonly owned: Owned;
   #scratchBytes = 0;
 
   /** @internal */
@@ -97,18 +98,18 @@ export abstract class Interpolant {
       const points = scratch.putF64(data.points);
       const values = scratch.putF64(data.values);
       const out = scratch.reserve(4);
+      const twins = scratch.reserve(4 * count);
       const given = { points, values, count, dimension: data.dimension, outputs, out };
       const options = writeOptions(scratch);
       heap.check((exports) => create(exports, given, options));
       const handle = heap.u32(out, 1)[0] ?? 0;
-      const twins = scratch.reserve(4 * count);
       heap.check((exports) => exports.hb_interpolant_twins(handle, twins));
       const merged = [...heap.u32(twins, count)]
         .map((into, point) => ({ point, into }))
         .filter(({ point, into }) => point !== into);
       return { handle, merged };
     });
-    this.#handle = made.handle;
+    this.owned = heap.own(this, 'hb_interpolant_free', made.handle);
     this.merged = made.merged;
   }
 
@@ -129,11 +130,7 @@ export abstract class Interpolant {
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    const handle = this.#handle;
-    if (handle === 0) return;
-    this.#handle = 0;
-    this.heap.release((e) => e.hb_interpolant_free(handle));
-    this.heap.free(this.#scratch);
+    this.owned.release();
   }
 
   [Symbol.dispose](): void {
@@ -142,7 +139,8 @@ export abstract class Interpolant {
 
   /** @internal The object in the solver's memory. */
   protected get handle(): number {
-    if (this.#handle !== 0 && !this.heap.disposed) return this.#handle;
+    const { pointer } = this.owned;
+    if (pointer !== 0) return pointer;
     throw new HandlebodyError('disposed', {
       message: 'This interpolant was disposed of and cannot be used any more.',
       remedy: 'Make a new one of the same data.',
@@ -159,7 +157,7 @@ export abstract class Interpolant {
     for (let first = 0; first < count; first += BATCH) {
       const batch = Math.min(BATCH, count - first);
       this.#reserve(8 * batch * (dimension + width));
-      const from = this.#scratch;
+      const from = this.owned.blocks[0] as number;
       const to = from + 8 * batch * dimension;
       const input = heap.f64(from, batch * dimension);
       for (let i = 0, at = first * dimension; i < input.length; i++, at++) {
@@ -176,10 +174,10 @@ export abstract class Interpolant {
 
   #reserve(bytes: number): void {
     if (bytes <= this.#scratchBytes) return;
-    this.heap.free(this.#scratch);
-    this.#scratch = 0;
+    const { blocks } = this.owned;
+    this.heap.free(blocks.pop() ?? 0);
     this.#scratchBytes = 0;
-    this.#scratch = this.heap.alloc(bytes);
+    blocks.push(this.heap.alloc(bytes));
     this.#scratchBytes = bytes;
   }
 }

@@ -24,6 +24,7 @@ import type { Heap, Scratch } from './heap.ts';
 import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
 import { readMesh } from './mesh-arrays.ts';
+import type { Owned } from './owned.ts';
 import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
@@ -52,8 +53,7 @@ export class Irbf {
   readonly #normals: number;
   readonly #restNormals: number;
   readonly #report: number;
-  readonly #hostKernel: number;
-  #irbf: number;
+  readonly #owned: Owned;
   #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
   #targets = new Float64Array();
@@ -65,15 +65,12 @@ export class Irbf {
   constructor(heap: Heap, body: BodyData, vertexCount: number, irbf: number, hostKernel: number) {
     this.#heap = heap;
     this.#body = body;
-    this.#irbf = irbf;
-    this.#hostKernel = hostKernel;
     // Allocated once, so that a frame allocates nothing.
     this.#length = 3 * vertexCount;
     const bytes = this.#length * 4;
-    this.#positions = heap.alloc(bytes);
-    this.#normals = heap.alloc(bytes);
-    this.#restNormals = heap.alloc(bytes);
-    this.#report = heap.alloc(LAYOUT.hb_irbf_report.sizeof);
+    const blocks = [bytes, bytes, bytes, LAYOUT.hb_irbf_report.sizeof];
+    this.#owned = heap.own(this, 'hb_irbf_free', irbf, { blocks, kernel: hostKernel });
+    [this.#positions = 0, this.#normals = 0, this.#restNormals = 0, this.#report = 0] = this.#owned.blocks;
   }
 
   /** What was given. This deforms what that was then: arrays that change later do not change it. */
@@ -265,18 +262,14 @@ export class Irbf {
       heap.check((e) => e.hb_irbf_share(irbf, out));
       return heap.u32(out, 1)[0] ?? 0;
     });
-    heap.kernels.share(this.#hostKernel);
-    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel));
+    const { kernel } = this.#owned;
+    heap.kernels.share(kernel);
+    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, kernel));
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    if (this.#irbf === 0) return;
-    const irbf = this.#irbf;
-    this.#irbf = 0;
-    this.#heap.release((e) => e.hb_irbf_free(irbf));
-    for (const pointer of [this.#positions, this.#normals, this.#restNormals, this.#report]) this.#heap.free(pointer);
-    this.#heap.kernels.remove(this.#hostKernel);
+    this.#owned.release();
   }
 
   [Symbol.dispose](): void {
@@ -289,7 +282,8 @@ export class Irbf {
   }
 
   #alive(): number {
-    if (this.#irbf !== 0) return this.#irbf;
+    const { pointer } = this.#owned;
+    if (pointer !== 0) return pointer;
     throw new HandlebodyError('disposed', {
       message: 'This deformation was disposed of and cannot be used any more.',
       remedy: 'Make a new one with irbf(body).',
@@ -303,8 +297,9 @@ export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf 
   // What the hash is of is what is taken.
   const body = readBody(given);
   const hostKernel = typeof options.kernel === 'string' ? 0 : heap.kernels.add(options.kernel);
+  let irbf: number;
   try {
-    const irbf = runKernel(heap, () =>
+    irbf = runKernel(heap, () =>
       heap.scope((scratch) => {
         const at = writeBody(heap, scratch, body);
         const optionsAt = writeOptions(heap, scratch, options, hostKernel);
@@ -313,11 +308,11 @@ export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf 
         return heap.u32(out, 1)[0] ?? 0;
       }),
     );
-    return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel);
   } catch (error) {
     heap.kernels.remove(hostKernel);
     throw error;
   }
+  return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel);
 }
 
 /** Between the model's units and those of a body that has an origin of its own: the first three numbers of each row. */

@@ -97,7 +97,7 @@ export class EnergyMinimizer extends Skin {
       return (made.given.positions[at] as number) - (rest[at] as number);
     });
     this.#iterations = iterations;
-    this.#report = heap.alloc(LAYOUT.hb_minimizer_report.sizeof);
+    this.#report = this.owned.alloc(LAYOUT.hb_minimizer_report.sizeof);
   }
 
   /** Writes the deformed positions, n×2. Allocates nothing but the report. */
@@ -130,10 +130,5 @@ export class EnergyMinimizer extends Skin {
         sum += (flat.parts[k] as number) * (moved[2 * (first[flat.corners[k] as number] as number) + (i % 2)] as number);
       moved[2 * flat.vertex + (i % 2)] = sum;
     }
-  }
-
-  override dispose(): void {
-    if (!this.disposed) this.heap.free(this.#report);
-    super.dispose();
   }
 }

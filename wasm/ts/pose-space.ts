@@ -14,6 +14,7 @@ import {
 } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
+import type { Owned } from './owned.ts';
 import type { TypedArray } from './types.ts';
 
 /** `cardinal`: radial basis functions with a polynomial tail. `normalized`: weights closer to [0, 1], but favors isolated examples. */
@@ -103,7 +104,7 @@ export class PoseSpace {
   readonly #weights: Float64Array;
   /** shapeLength × examples: all that one number of the result needs is contiguous. */
   readonly #shapes: Float64Array;
-  #space: number;
+  readonly #owned: Owned;
 
   /** @internal Use `Handlebody.poseSpace`. */
   constructor(heap: Heap, given: PoseSpaceOptions) {
@@ -127,7 +128,7 @@ export class PoseSpace {
     });
 
     this.#heap = heap;
-    this.#space = heap.scope((scratch) => {
+    const space = heap.scope((scratch) => {
       const from = scratch.putF64(places);
       const out = scratch.reserve(4);
       try {
@@ -137,9 +138,10 @@ export class PoseSpace {
       }
       return heap.u32(out, 1)[0] ?? 0;
     });
+    this.#owned = heap.own(this, 'hb_pose_space_free', space);
     // Allocated once, so that a frame allocates nothing.
-    this.#query = heap.alloc(dimensions.length * 8);
-    this.#weightsAt = heap.alloc(count * 8);
+    this.#query = this.#owned.alloc(dimensions.length * 8);
+    this.#weightsAt = this.#owned.alloc(count * 8);
   }
 
   /** The examples' weights at a point of the pose space, in the order of `names`. They sum to 1 and may be slightly negative. */
@@ -169,12 +171,7 @@ export class PoseSpace {
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    if (this.#space === 0) return;
-    const space = this.#space;
-    this.#space = 0;
-    this.#heap.release((e) => e.hb_pose_space_free(space));
-    this.#heap.free(this.#query);
-    this.#heap.free(this.#weightsAt);
+    this.#owned.release();
   }
 
   [Symbol.dispose](): void {
@@ -183,7 +180,7 @@ export class PoseSpace {
 
   /** Computes the weights at `at` into `#weights`. */
   #solve(given: ArrayLike<number> | Vector): void {
-    const space = this.#space;
+    const space = this.#owned.pointer;
     if (space === 0) {
       throw new HandlebodyError('disposed', {
         message: 'This pose space was disposed of and cannot be used any more.',

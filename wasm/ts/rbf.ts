@@ -20,7 +20,6 @@ import { printWarning, type RbfReport } from './rbf-report.ts';
 export class Rbf extends Interpolant {
   readonly #kernel: KernelName | 'custom';
   readonly #degree: number;
-  readonly #hostKernel: number;
   readonly #options: ReadRbf;
   #report: RbfReport | undefined;
 
@@ -43,7 +42,7 @@ export class Rbf extends Interpolant {
     }
     this.#kernel = resolved.name;
     this.#degree = resolved.degree;
-    this.#hostKernel = resolved.hostKernel;
+    this.owned.kernel = resolved.hostKernel;
     this.#options = read;
     for (const warning of this.report().warnings) (read.onWarning ?? printWarning)(warning);
   }
@@ -76,11 +75,6 @@ export class Rbf extends Interpolant {
   /** How much each point counts: 1, or less where a robust fit mistrusts it. */
   rowWeights(): Float64Array {
     return this.#read(this.size, (e, out) => e.hb_rbf_row_weights(this.handle, out));
-  }
-
-  override dispose(): void {
-    super.dispose();
-    this.heap.kernels.remove(this.#hostKernel);
   }
 
   #read(length: number, run: (exports: RuntimeExports, out: number) => number): Float64Array {

@@ -13,6 +13,7 @@ import {
 } from './arguments.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
+import type { Owned } from './owned.ts';
 import { printWarning } from './rbf-report.ts';
 import { type SkinWarning, withSumsOfOne } from './skin-weights.ts';
 import type { TypedArray } from './types.ts';
@@ -75,8 +76,9 @@ export abstract class Skin {
 
   /** @internal */
   protected readonly heap: Heap;
+  /** @internal */
+  protected readonly owned: Owned;
   readonly #out: number;
-  #handle: number;
 
   /** @internal */
   protected constructor(
@@ -98,34 +100,26 @@ export abstract class Skin {
       create(out, given);
       return heap.u32(out, 1)[0] ?? 0;
     });
-    this.#handle = handle;
+    this.owned = heap.own(this, 'hb_skin_free', handle);
     // Allocated once, so that a frame allocates nothing.
-    this.#out = heap.alloc(vertexCount * dimension * 4);
+    this.#out = this.owned.alloc(vertexCount * dimension * 4);
     const transforms = heap.call((e) => e.hb_skin_transforms(handle));
     this.transforms = heap.f64(transforms, handleCount * dimension * (dimension + 1)).slice();
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
   dispose(): void {
-    const handle = this.#handle;
-    if (handle === 0) return;
-    this.#handle = 0;
-    this.heap.release((e) => e.hb_skin_free(handle));
-    this.heap.free(this.#out);
+    this.owned.release();
   }
 
   [Symbol.dispose](): void {
     this.dispose();
   }
 
-  protected get disposed(): boolean {
-    return this.#handle === 0;
-  }
-
   /** @internal Moves the vertices by what `transforms` says now: `run` gets the object and where positions go. */
   protected move<T extends TypedArray>(given: T | undefined, run: (handle: number, out: number) => void): T {
     const { heap, transforms } = this;
-    const handle = this.#handle;
+    const handle = this.owned.pointer;
     if (handle === 0) {
       throw new HandlebodyError('disposed', {
         message: 'This skin was disposed of and cannot be used any more.',

@@ -43,10 +43,12 @@ export class SoundMesh {
       const out = scratch.reserve(LAYOUT.hb_sound_mesh_view.sizeof);
       heap.check((e) => e.hb_sound_mesh_create(shape, weld ? 1 : 0, strict ? 1 : 0, out));
       const object = heap.u32(out, 1)[0] ?? 0;
-      heap.call((e) => e.hb_sound_mesh_get(object, out));
-      const read = readView(heap, out, given);
-      heap.call((e) => e.hb_sound_mesh_free(object));
-      return read;
+      try {
+        heap.call((e) => e.hb_sound_mesh_get(object, out));
+        return readView(heap, out, given);
+      } finally {
+        heap.release((e) => e.hb_sound_mesh_free(object));
+      }
     });
     this.vertexCount = given.vertexCount;
     this.sound = made.sound;

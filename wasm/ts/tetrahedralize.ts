@@ -103,16 +103,18 @@ export function tetrahedralize(heap: Heap<Exports>, surface: Mesh, given: Tetrah
     const out = scratch.reserve(LAYOUT.hb_tetrahedra_view.sizeof);
     heap.check((e) => e.hb_tetrahedra_create(from, vertexCount, indices, simplexCount, resolution, out));
     const made = heap.u32(out, 1)[0] ?? 0;
-    heap.call((e) => e.hb_tetrahedra_arrays(made, out));
-    const [n = 0, m = 0, at = 0, tetrahedra = 0, corners = 0, coordinates = 0] = heap.u32(out, 6);
-    const result = new Tetrahedra(
-      heap.f64(at, 3 * n).slice(),
-      heap.u32(tetrahedra, 4 * m).slice(),
-      heap.u32(corners, 4 * vertexCount).slice(),
-      heap.f64(coordinates, 4 * vertexCount).slice(),
-    );
-    heap.call((e) => e.hb_tetrahedra_free(made));
-    return result;
+    try {
+      heap.call((e) => e.hb_tetrahedra_arrays(made, out));
+      const [n = 0, m = 0, at = 0, tetrahedra = 0, corners = 0, coordinates = 0] = heap.u32(out, 6);
+      return new Tetrahedra(
+        heap.f64(at, 3 * n).slice(),
+        heap.u32(tetrahedra, 4 * m).slice(),
+        heap.u32(corners, 4 * vertexCount).slice(),
+        heap.f64(coordinates, 4 * vertexCount).slice(),
+      );
+    } finally {
+      heap.release((e) => e.hb_tetrahedra_free(made));
+    }
   });
 }
 

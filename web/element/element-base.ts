@@ -3,6 +3,7 @@ import { explain } from '../ui/explain.ts';
 import { isAbort } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
 import { Progress } from '../ui/progress.ts';
+import { tellOf } from '../ui/solver-end.ts';
 import { adopt } from './adopt.ts';
 import { STYLES } from './styles.generated.ts';
 
@@ -251,10 +252,11 @@ export abstract class ElementBase extends PageElement {
       this.#failed = true;
       this.#work = undefined;
       this.#showPoster();
-      this.tell(isAbort(error) ? cancelled() : error, () => {
+      const again = () => {
         this.quiet();
         this.again();
-      });
+      };
+      tellOf(isAbort(error) ? cancelled() : error, (told) => this.tell(told, again), again);
     } finally {
       if (!this.#work) {
         this.progress.end();

@@ -1,5 +1,6 @@
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
+import { tellOf } from '../ui/solver-end.ts';
 import { readCamera } from './camera-text.ts';
 import { ElementBase, type Showing } from './element-base.ts';
 import { readViews, type Views } from './views-text.ts';
@@ -97,7 +98,12 @@ export abstract class ModelElement extends ElementBase {
       ...{ camera: readCamera(this.camera), views: readViews(this.views) },
       onPart: (part) => this.dispatchEvent(new CustomEvent('progress', { detail: { part } })),
       onFirst: () => this.first(),
-      onError: (error) => (isTrap(error) ? this.tell(stopped(), () => this.#anew()) : this.tell(error)),
+      onError: (error) =>
+        tellOf(
+          error,
+          (told, again) => this.tell(told, again),
+          () => this.#anew(),
+        ),
     });
     this.shown = shown;
     const dispose = () => {
@@ -144,14 +150,4 @@ export function readOr<T>(other: T, read: () => T): T {
   } catch {
     return other;
   }
-}
-
-/** The solver has ended, and what it made with it. */
-function isTrap(error: unknown): boolean {
-  return (error as { code?: unknown }).code === 'wasm-trapped';
-}
-
-function stopped(): PageError {
-  const remedy = 'Try again: what is shown is brought back with a fresh solver. If it happens again, please report it.';
-  return new PageError('wasm-trapped', 'The solver stopped unexpectedly, perhaps for want of memory.', remedy);
 }

@@ -1,5 +1,5 @@
 import { type Object3D, Raycaster, Vector2, Vector3 } from 'three';
-import type { Handle } from '../../wasm/ts/runtime.ts';
+import type { Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import type { Step, View } from '../stage/view.ts';
 import { BareHandles } from '../three/handles.ts';
 import type { LiveBody, Point, Round } from '../three/live-body.ts';
@@ -159,6 +159,11 @@ export class BodyScene implements StudioScene, Steerable {
     const i = this.#overlay.selected;
     const point = this.#points[i];
     this.#tether.update(point?.rest, point && this.target(i));
+  }
+
+  renew(solver: HandlebodyRuntime): void {
+    this.#body.renew(solver);
+    this.#wake();
   }
 
   dispose(): void {

@@ -5,6 +5,7 @@ import { byId } from '../ui/dom.ts';
 import { Messages } from '../ui/messages.ts';
 import { noteIn } from '../ui/note.ts';
 import { Progress } from '../ui/progress.ts';
+import { renewed } from '../ui/solver-end.ts';
 import { listenForFiles } from './drop.ts';
 import { ModelSwitch } from './model-switch.ts';
 import { Studio } from './studio.ts';
@@ -20,8 +21,8 @@ function start(): void {
   viewport.after(cameraTools(view, viewport));
   view.onInterrupted = (words) => note(words);
   // Asked for now, awaited when a model is there: both come at the same time.
-  const solver = load();
-  solver.catch(() => {});
+  const solver = renewed(load);
+  solver().catch(() => {});
   const studio = new Studio({ view, solver, messages, progress, note });
   const models = new ModelSwitch((id) => void studio.choose(id));
   studio.modelSwitch = models;

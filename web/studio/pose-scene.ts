@@ -25,7 +25,7 @@ export class PoseScene implements StudioScene {
   readonly object: Object3D;
   readonly grounded = false;
   readonly #options: PoseSceneOptions;
-  readonly #driver: PoseDriver;
+  #driver: PoseDriver;
   readonly #panel: PosePanel;
   readonly #to: [number, number] = [0, 0];
   readonly #at: [number, number] = [0, 0];
@@ -34,7 +34,7 @@ export class PoseScene implements StudioScene {
   constructor(options: PoseSceneOptions) {
     this.#options = options;
     this.object = options.object;
-    this.#driver = poseDriver(options.solver, options.space, options.object);
+    this.#driver = this.#drive(options.solver);
     this.#panel = new PosePanel(
       options.title,
       options.space,
@@ -68,9 +68,19 @@ export class PoseScene implements StudioScene {
 
   drawn(): void {}
 
+  renew(solver: HandlebodyRuntime): void {
+    this.#driver.dispose();
+    this.#driver = this.#drive(solver);
+    this.#options.view.animate(this.#step);
+  }
+
   dispose(): void {
     this.#options.view.stop(this.#step);
     this.#driver.dispose();
+  }
+
+  #drive(solver: HandlebodyRuntime): PoseDriver {
+    return poseDriver(solver, this.#options.space, this.object);
   }
 
   #ease(seconds: number): boolean {

@@ -1,4 +1,5 @@
 import type { Object3D } from 'three';
+import type { HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 
 /** What the view can show and the panel can steer: a body with handles, or a face in a pose space. */
 export interface StudioScene {
@@ -11,5 +12,7 @@ export interface StudioScene {
   drawn(): void;
   /** Back to rest, eased unless motion is unwanted. */
   reset(): void;
+  /** As it was, by another solver: the one that it had has ended. */
+  renew(solver: HandlebodyRuntime): void;
   dispose(): void;
 }

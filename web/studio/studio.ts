@@ -11,6 +11,7 @@ import { byId } from '../ui/dom.ts';
 import { isAbort, type Messages } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
+import { tellOf } from '../ui/solver-end.ts';
 import { besideIt } from './beside.ts';
 import { BodyScene } from './body-scene.ts';
 import type { ModelSwitch } from './model-switch.ts';
@@ -27,7 +28,8 @@ const OWN_RESOLUTION = 64;
 
 interface StudioParts {
   readonly view: View;
-  readonly solver: Promise<HandlebodyRuntime>;
+  /** Another one where the last has ended. */
+  readonly solver: () => Promise<HandlebodyRuntime>;
   readonly messages: Messages;
   readonly progress: Progress;
   readonly note: (words: string) => void;
@@ -123,7 +125,7 @@ export class Studio {
       this.#switch?.show(id, label);
     } catch (error) {
       if (work.signal.aborted && this.#work !== work) return;
-      if (!isAbort(error)) this.#fail(error);
+      if (!isAbort(error)) this.#fail(error, () => this.#bring(id, label, make));
       if (this.#shown) this.#switch?.show(this.#shown);
       else this.#switch?.clear();
     } finally {
@@ -134,16 +136,21 @@ export class Studio {
     }
   }
 
-  #fail(error: unknown): void {
+  #fail(error: unknown, again: () => Promise<void>): void {
     const { messages } = this.#parts;
     const code = (error as { code?: unknown }).code;
-    if (code === 'wasm-unavailable' || code === 'wasm-trapped') {
+    if (code === 'wasm-unavailable') {
       this.#root.dataset.state = 'failed';
       messages.showInstead(error);
     } else {
       if (!this.#shown) this.#root.dataset.state = 'empty';
-      messages.show(error);
+      this.#tell(error, again);
     }
+  }
+
+  /** Where the solver has ended, `restore` makes what it made again; that is the present scene. */
+  #tell(error: unknown, restore = async () => this.#scene?.renew(await this.#parts.solver())): void {
+    tellOf(error, (told, again) => this.#parts.messages.show(told, again), restore);
   }
 
   #swap(scene: StudioScene, id: string): void {
@@ -166,9 +173,9 @@ export class Studio {
       view.show(model.object);
       view.frame(model.object, angles, !model.space);
     }
-    const common = { view, object: model.object, title, onError: (e: unknown) => messages.show(e), onGood: () => messages.clear() };
+    const common = { view, object: model.object, title, onError: (e: unknown) => this.#tell(e), onGood: () => messages.clear() };
     const scene = model.space
-      ? new (await import('./pose-scene.ts')).PoseScene({ ...common, solver: await solver, space: model.space })
+      ? new (await import('./pose-scene.ts')).PoseScene({ ...common, solver: await solver(), space: model.space })
       : await this.#stageBody(model, common, signal, entry);
     if (!signal.aborted && (this.#shown || !entry)) view.frame(scene.object, angles, scene.grounded);
     return scene;
@@ -184,7 +191,7 @@ export class Studio {
     const { mesh, parts, normals } = await readObject(model.object, reading ? { reading } : { onWarning: this.#warn });
     const body = model.body ?? (await this.#bake(mesh, signal));
     const points = (body.handles ?? (await spreadHandles(body))).map(({ name, ...handle }) => ({ name, handle }));
-    const [solver, making] = await Promise.all([this.#parts.solver, fetchMaking(model.object)]);
+    const [solver, making] = await Promise.all([this.#parts.solver(), fetchMaking(model.object)]);
     const live = new LiveBody(solver, body, normals);
     const shown = new LiveGeometry(parts, making);
     try {

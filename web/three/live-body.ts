@@ -26,12 +26,12 @@ export interface Round {
 
 /**
  * Deformations under way of each body of each solver. Copies of a model on one page share what depends on no handle, which is most of a
- * body's memory: each new one shares with any that is still there.
+ * body's memory: each new one shares with any that is still there. Those that are forgotten may be collected.
  */
-const alive = new WeakMap<HandlebodyRuntime, WeakMap<BodyData, Set<Irbf>>>();
+const alive = new WeakMap<HandlebodyRuntime, WeakMap<BodyData, Set<WeakRef<Irbf>>>>();
 
-function deformationsOf(solver: HandlebodyRuntime, data: BodyData): Set<Irbf> {
-  const bodies = alive.get(solver) ?? new WeakMap<BodyData, Set<Irbf>>();
+function deformationsOf(solver: HandlebodyRuntime, data: BodyData): Set<WeakRef<Irbf>> {
+  const bodies = alive.get(solver) ?? new WeakMap<BodyData, Set<WeakRef<Irbf>>>();
   const deformations = bodies.get(data) ?? new Set();
   alive.set(solver, bodies.set(data, deformations));
   return deformations;
@@ -42,9 +42,10 @@ export class LiveBody {
   readonly data: BodyData;
   readonly positions: Float32Array;
   readonly normals: Float32Array;
-  readonly #irbf: Irbf;
-  /** Its own among them. */
-  readonly #deformations: Set<Irbf>;
+  #irbf!: Irbf;
+  /** Ends others' sharing with it. */
+  #leave!: () => void;
+  readonly #restNormals: Float32Array | undefined;
   #handles: readonly Handle[] = [];
   /** Targets of the last solution. */
   #good = new Float64Array();
@@ -53,11 +54,33 @@ export class LiveBody {
     this.data = data;
     this.positions = new Float32Array(data.mesh.positions);
     this.normals = new Float32Array(data.mesh.positions.length);
-    this.#deformations = deformationsOf(solver, data);
-    const [other] = this.#deformations;
-    this.#irbf = other ? other.share() : solver.irbf(data);
-    this.#deformations.add(this.#irbf);
-    if (restNormals) this.#irbf.setRestNormals(restNormals);
+    this.#restNormals = restNormals;
+    this.#join(solver);
+  }
+
+  /** As it was, by another solver: the one that it had has ended. Throws what `irbf` and `setHandles` throw. */
+  renew(solver: HandlebodyRuntime): void {
+    this.dispose();
+    this.#join(solver);
+    if (this.#handles.length === 0) return;
+    this.#irbf.setHandles(this.#handles);
+    this.#irbf.targets.set(this.#good);
+    this.#irbf.solve();
+  }
+
+  #join(solver: HandlebodyRuntime): void {
+    const deformations = deformationsOf(solver, this.data);
+    let other: Irbf | undefined;
+    for (const each of deformations) {
+      other = each.deref();
+      if (other) break;
+      deformations.delete(each);
+    }
+    this.#irbf = other?.share() ?? solver.irbf(this.data);
+    const own = new WeakRef(this.#irbf);
+    deformations.add(own);
+    this.#leave = () => deformations.delete(own);
+    if (this.#restNormals) this.#irbf.setRestNormals(this.#restNormals);
   }
 
   /** Where a handle is at rest, model units. */
@@ -132,7 +155,7 @@ export class LiveBody {
   }
 
   dispose(): void {
-    this.#deformations.delete(this.#irbf);
+    this.#leave();
     this.#irbf.dispose();
   }
 }

@@ -5,6 +5,7 @@ import { explain } from '../../ui/explain.ts';
 import { NotFetched } from '../../ui/lazy.ts';
 import { isAbort } from '../../ui/messages.ts';
 import { PageError } from '../../ui/page-error.ts';
+import { isEnd, tellOf } from '../../ui/solver-end.ts';
 import type { Channels, StateOf } from './channel.ts';
 import { type PartShown, partControls, partsOf } from './controls.ts';
 import { offerEmbed } from './embed-code.ts';
@@ -21,7 +22,7 @@ const LATE = 50;
 /** Milliseconds of work that nobody needs to hear of. */
 const PATIENCE = 400;
 
-/** Both links of the solver, each fetched once a page and only when a figure asks for it. */
+/** Both links of the solver, each fetched once a page and only when a figure asks for it; and anew where one has ended. */
 export interface Solvers {
   runtime(): Promise<HandlebodyRuntime>;
   whole(): Promise<Handlebody>;
@@ -61,6 +62,8 @@ export class Live<C extends Channels, M extends Disposable> {
   /** The sides that are not shown, as they were left. */
   readonly #aside = new Map<number, Shown<C>>();
   #hb: HandlebodyRuntime | undefined;
+  /** The last whose end was told. */
+  #ended: HandlebodyRuntime | undefined;
   #preset: Preset<C>;
   #state: StateOf<C>;
   #made: M | undefined;
@@ -182,7 +185,7 @@ export class Live<C extends Channels, M extends Disposable> {
       const kept = Object.keys(patch).filter((key) => this.#state[key] !== good.state[key]);
       this.#state = { ...next, ...Object.fromEntries(kept.map((key) => [key, this.#state[key]])) };
       this.#good = { ...good, state: { ...good.state, ...patch } };
-    } else if (heavy.every((key) => next[key] === good.state[key])) {
+    } else if (this.#made && heavy.every((key) => next[key] === good.state[key])) {
       this.#work?.abort();
       this.#end();
       [this.#preset, this.#state] = [good.preset, { ...good.state, ...patch }];
@@ -211,12 +214,11 @@ export class Live<C extends Channels, M extends Disposable> {
 
   async #open(): Promise<void> {
     try {
-      const { solvers } = this.#options;
       if (this.#figure.sketch) await this.#sketch();
-      this.#hb = await (this.#figure.whole ? solvers.whole() : solvers.runtime());
+      this.#hb = await this.#solver();
       if (this.#disposed) return;
       this.#stir();
-      this.#picturePresets(this.#hb, [...this.#figure.presets]);
+      this.#picturePresets([...this.#figure.presets]);
       this.#layout.bringChosen();
     } catch (error) {
       this.element.dataset.state = 'failed';
@@ -227,6 +229,11 @@ export class Live<C extends Channels, M extends Disposable> {
       };
       this.#layout.trouble.tell(error, error instanceof NotFetched ? again : undefined);
     }
+  }
+
+  #solver(): Promise<HandlebodyRuntime> {
+    const { runtime, whole } = this.#options.solvers;
+    return this.#figure.whole ? whole() : runtime();
   }
 
   /** Draws what needs no solver, as `data-drawn` says. */
@@ -245,13 +252,14 @@ export class Live<C extends Channels, M extends Disposable> {
   }
 
   /** Small pictures, one after another, when there is time. */
-  #picturePresets(hb: HandlebodyRuntime, presets: Preset<C>[]): void {
+  #picturePresets(presets: Preset<C>[]): void {
     const preset = presets.shift();
     if (!preset || !this.#figure.thumbnail || this.#disposed) return;
     const draw = () => {
-      const picture = this.#figure.thumbnail?.(hb, stateOfPreset(this.#figure.parameters, preset));
+      const hb = this.#hb;
+      const picture = hb?.usable && this.#figure.thumbnail?.(hb, stateOfPreset(this.#figure.parameters, preset));
       if (picture) this.#layout.picture(preset.id, picture);
-      this.#picturePresets(hb, presets);
+      this.#picturePresets(presets);
     };
     if ('requestIdleCallback' in globalThis) requestIdleCallback(draw);
     else setTimeout(draw, 50);
@@ -277,7 +285,7 @@ export class Live<C extends Channels, M extends Disposable> {
       get address() {
         return address();
       },
-      tell: (error) => this.#layout.trouble.tell(error),
+      tell: (error) => this.#tell(error),
       wait: this.#wait,
       emphasize: (key) => this.#panels.emphasize(key),
       focus: (selector, other) =>
@@ -300,7 +308,7 @@ export class Live<C extends Channels, M extends Disposable> {
         this.#layout.progress.set(part);
       });
     } catch (error) {
-      this.#layout.trouble.tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
+      this.#tell(error, error instanceof NotFetched ? () => void this.#wait(label, work) : undefined);
     } finally {
       this.#waits--;
       if (!this.#work) this.#layout.progress.end();
@@ -366,7 +374,7 @@ export class Live<C extends Channels, M extends Disposable> {
       if (this.#stuck) this.#layout.trouble.clear();
       this.#stuck = '';
     } catch (error) {
-      if (this.#stuck !== String(error)) this.#layout.trouble.tell(error);
+      if (this.#stuck !== String(error)) this.#tell(error);
       this.#stuck = String(error);
     }
     if (this.#unmoved) this.#frame ||= requestAnimationFrame(() => void this.#run());
@@ -437,7 +445,7 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #failed(error: unknown, asked: Shown<C>): void {
     const again = () => this.#choose(asked);
-    if (!isAbort(error)) this.#layout.trouble.tell(error, error instanceof NotFetched ? again : undefined);
+    if (!isAbort(error)) this.#tell(error, error instanceof NotFetched ? again : undefined);
     if (this.#good) [this.#preset, this.#state] = [this.#good.preset, this.#good.state];
     else if (isAbort(error) || error instanceof NotFetched) {
       this.element.dataset.state = 'failed';
@@ -445,7 +453,25 @@ export class Live<C extends Channels, M extends Disposable> {
         this.#unmade = true;
         this.#stir();
       });
-    } else this.#fallBack(error);
+    } else if (isEnd(error)) this.element.dataset.state = 'failed';
+    else this.#fallBack(error);
+  }
+
+  /** Where the solver has ended, the pictures stay until what the state says is made by another one. */
+  #tell(error: unknown, again?: () => void): void {
+    if (isEnd(error)) this.#ended = this.#hb;
+    tellOf(
+      error,
+      (told, renew) => this.#layout.trouble.tell(told, renew ?? again),
+      async () => {
+        this.#hb = await this.#solver();
+        this.#stuck = '';
+        this.#made?.dispose?.();
+        this.#made = undefined;
+        this.#unmade = true;
+        this.#stir();
+      },
+    );
   }
 
   /** A link may ask for what cannot be made: then the preset stands in, and says so. */
@@ -506,6 +532,8 @@ export class Live<C extends Channels, M extends Disposable> {
 
   #rest(): void {
     const made = this.#made;
+    // A figure may have said in words of its own what came of it.
+    if (this.#hb?.usable === false && this.#hb !== this.#ended) this.#tell({ code: 'wasm-trapped' });
     if (made) {
       this.#attempt(() => {
         if (this.#figure.settle) {
@@ -542,7 +570,7 @@ export class Live<C extends Channels, M extends Disposable> {
     try {
       work();
     } catch (error) {
-      this.#layout.trouble.tell(error);
+      this.#tell(error);
     }
   }
 

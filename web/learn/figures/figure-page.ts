@@ -5,6 +5,7 @@ import { writeAddress } from '../../ui/address.ts';
 import { copyLink } from '../../ui/copy-link.ts';
 import { byId, h } from '../../ui/dom.ts';
 import { lazy } from '../../ui/lazy.ts';
+import { renewed } from '../../ui/solver-end.ts';
 import { Trouble } from '../../ui/trouble.ts';
 
 /** Where embed.html is. */
@@ -18,8 +19,8 @@ interface Shown {
 
 const parts = new Map(FIGURES.map(({ id, title, load }) => [id, lazy(load, `The figure “${title}”`)]));
 const solvers: Solvers = {
-  runtime: once(lazy(() => import('../../../wasm/ts/runtime.ts'), 'The solver')),
-  whole: once(lazy(() => import('../../../wasm/ts/index.ts'), 'The solver')),
+  runtime: solver(lazy(() => import('../../../wasm/ts/runtime.ts'), 'The solver')),
+  whole: solver(lazy(() => import('../../../wasm/ts/index.ts'), 'The solver')),
 };
 
 /**
@@ -78,16 +79,11 @@ function figurePage(only?: string): void {
   void open();
 }
 
-/** What a part of the program makes, made once a page; asked for again where it did not come. */
-function once<T>(part: (state: string) => Promise<{ load(): Promise<T> }>): () => Promise<T> {
-  let coming: Promise<T> | undefined;
-  return () => {
-    coming ??= part(location.hash.slice(1)).then(({ load }) => load());
-    coming.catch(() => {
-      coming = undefined;
-    });
-    return coming;
-  };
+/** What a part of the program loads. */
+function solver<T extends { readonly usable: boolean }>(
+  part: (state: string) => Promise<{ load(): Promise<T> }>,
+): () => Promise<T> {
+  return renewed(async () => (await part(location.hash.slice(1))).load());
 }
 
 figurePage(document.body.dataset.only);
