@@ -58,6 +58,8 @@ export function findOutliers(heap: Heap, options: OutlierOptions): OutlierReport
     });
   }
   const { count, outputs } = checkShapes(options);
+  // There are no more to find, whatever is asked for.
+  const room = Math.min(most, count);
   const { smoothing: _, ...rest } = options;
   const resolved = resolve(heap, rest);
   try {
@@ -66,14 +68,14 @@ export function findOutliers(heap: Heap, options: OutlierOptions): OutlierReport
       const points = scratch.putF64(options.points);
       const values = scratch.putF64(options.values);
       const scores = scratch.reserve(8 * count);
-      const outliers = scratch.reserve(4 * most);
-      const heights = scratch.reserve(8 * most);
+      const outliers = scratch.reserve(4 * room);
+      const heights = scratch.reserve(8 * room);
       const layout = LAYOUT.hb_outlier_search;
       const search = scratch.reserve(layout.sizeof);
       heap.f64(search + layout.threshold, 1)[0] = threshold;
       const words = heap.u32(search, layout.sizeof / 4);
       words[layout.method / 4] = number;
-      words[layout.most / 4] = most;
+      words[layout.most / 4] = room;
       words[layout.scores / 4] = scores;
       words[layout.outliers / 4] = outliers;
       words[layout.heights / 4] = heights;
