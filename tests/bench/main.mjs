@@ -1,4 +1,4 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, irbf, readers, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, hostile, irbf, readers, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
@@ -6,6 +6,7 @@ const PARTS = {
   bake: async () => (await import('./bake/main.mjs')).benchBake(),
   elements: async () => (await import('./elements/main.mjs')).benchElements(),
   figures: async () => (await import('./figures/main.mjs')).benchFigures(),
+  hostile: async () => (await import('./hostile/main.mjs')).benchHostile(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),
   readers: async () => (await import('./readers/main.mjs')).benchReaders(),

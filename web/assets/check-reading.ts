@@ -3,7 +3,7 @@ import type { MeshReading } from '../../wasm/ts/types.ts';
 import { asObject, isNumber } from './gltf-json.ts';
 
 /** More parts than real scenes have. */
-const MAX_PARTS = 1 << 16;
+export const MAX_PARTS = 1 << 16;
 
 /** What a file says of how its scene was read. Throws 'body-invalid' for what no reader wrote. */
 export function checkReading(json: unknown): MeshReading {

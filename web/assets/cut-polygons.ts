@@ -1,5 +1,6 @@
 /** Faces of any number of corners, in space, as triangles. */
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
+import { crossesItself } from './crossing-edges.ts';
 import { clipEars, FLAT } from './ear-clipping.ts';
 
 /** Faces as lists: vertices of all corners one after another, and how many each face has, 3 or more. */
@@ -8,8 +9,10 @@ interface Faces {
   readonly sizes: Uint32Array;
 }
 
-/** Ear clipping takes quadratic time at worst, some seconds for this sum of squares of the numbers of corners. */
-const MAX_SQUARES = 3e8;
+/** Ear clipping takes quadratic time at worst, up to a second for this sum of squares of the numbers of corners. */
+const MAX_SQUARES = 1e8;
+/** And where a face crosses itself, a hundred times as long: from this sum on that is looked for first. */
+const MANY_SQUARES = 2e5;
 
 type Vector = [number, number, number];
 
@@ -47,7 +50,8 @@ export function cutFaces(positions: Float64Array, { corners, sizes }: Faces, onC
       else {
         squares += size * size;
         if (squares > MAX_SQUARES) throw tooLarge(face, size);
-        const cut = clipEars(flatten(polygon, normal));
+        const flat = flatten(polygon, normal);
+        const cut = squares > MANY_SQUARES && crossesItself(flat) ? undefined : clipEars(flat);
         if (!cut) {
           onCrossing(face);
           putFan(0);

@@ -6,6 +6,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { damaged, entriesOf, listOf } from './fetch-resources.ts';
 import { asObject, type GltfJson } from './gltf-json.ts';
 import { loadDecoder } from './meshopt.ts';
+import { AMPLE, AMPLIFICATION } from './verify-gltf.ts';
 
 const NAMES = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
 
@@ -23,10 +24,6 @@ const STRIDES: Readonly<Record<string, (stride: number) => boolean>> = {
 
 /** No stream holds more elements a byte: a vertex block of 256 takes one at least, a triangle and an index one each. */
 const ELEMENTS_PER_BYTE: Readonly<Record<string, number>> = { ATTRIBUTES: 256, TRIANGLES: 3, INDICES: 1 };
-
-/** More than this, and more than so many times the file, is taken for an attack or a defect: as for accessors that share bytes. */
-const AMPLE = 1 << 28;
-const AMPLIFICATION = 16;
 
 interface Stream {
   readonly view: number;

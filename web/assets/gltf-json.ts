@@ -16,7 +16,19 @@ export function isNumber(value: unknown): value is number {
   return typeof value === 'number' && Number.isFinite(value);
 }
 
-/** A value as a message shows it, cut short. */
+/** A value as a message shows it, cut short. Lists and objects are not: they may be nested deeper than can be written. */
 export function show(value: unknown): string {
-  return (JSON.stringify(value) ?? 'undefined').slice(0, 40);
+  if (Array.isArray(value)) return `a list of ${value.length}`;
+  return isObject(value) ? 'an object' : `${JSON.stringify(value)}`.slice(0, 40);
+}
+
+/** Deeper trees overflow the stack of readers that recurse; real ones have some tens of levels. */
+export const MAX_DEPTH = 512;
+
+/** Whether objects and lists lie in each other deeper than that: then no reader or writer goes through them. */
+export function isDeep(value: unknown, depth = 0): boolean {
+  if (typeof value !== 'object' || value === null) return false;
+  if (depth > MAX_DEPTH) return true;
+  for (const member of Array.isArray(value) ? value : Object.values(value)) if (isDeep(member, depth + 1)) return true;
+  return false;
 }

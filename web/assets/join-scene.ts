@@ -3,9 +3,10 @@
  * three.js' objects are both read through here, so that the same model gives the same vertices, to the last bit.
  */
 
+import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { placeUnheld } from '../../wasm/ts/placed-vertices.ts';
 import type { Mesh, MeshReading } from '../../wasm/ts/types.ts';
-import { checkReading } from './check-reading.ts';
+import { checkReading, MAX_PARTS } from './check-reading.ts';
 import { boxOf, drawnVertices, isCoarse, isLostInScene } from './coarse-floats.ts';
 import { checkSize, concatenate, type MeshRange } from './concatenate.ts';
 import { cornersOf, countTriangles, type DrawnRun, gatherUndrawn, type PartMode } from './drawn-corners.ts';
@@ -52,14 +53,16 @@ interface JoinedScene<Source> {
 /** Throws 'mesh-no-triangles', 'mesh-too-large' or 'mesh-index-out-of-range'. */
 export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: SceneChoices): JoinedScene<Source> {
   const warn = (code: SceneWarning['code'], message: string, remedy: string) => choices.onWarning?.({ code, message, remedy });
+  if (found.length > MAX_PARTS) throw manyParts();
   const known = choices.reading && checkReading(choices.reading);
+  const skippedBefore = new Set(known?.skipped);
   const reading = {
     skipped: [] as number[],
     morphs: {} as Record<number, readonly number[]>,
     skins: {} as Record<number, number[]>,
   };
   const isSkipped = (part: ScenePart<Source>, number: number) =>
-    known ? (known.skipped?.includes(number) ?? false) : part.hidden && choices.hidden !== 'take';
+    known ? skippedBefore.has(number) : part.hidden && choices.hidden !== 'take';
 
   const numbered = found.map((part, number) => ({ part, number }));
   const visible = numbered.filter(({ part, number }) => {
@@ -137,6 +140,14 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
       weights,
     })),
   };
+}
+
+/** Each part has its place in the mesh's `reading`: what draws so many is no scene. */
+function manyParts(): HandlebodyError {
+  return new HandlebodyError('mesh-too-large', {
+    message: `The scene draws more than ${MAX_PARTS} primitives, one that several nodes draw counted each time.`,
+    remedy: 'Join meshes of one material in a modeling program, or use a part of the model.',
+  });
 }
 
 function isMoved({ weights }: Pick<ScenePart<unknown>, 'weights'>): boolean {

@@ -13,6 +13,7 @@ import {
 } from '@gltf-transform/core';
 import { asObject, type GltfJson } from './gltf-json.ts';
 import type { GltfReadOptions } from './gltf-warnings.ts';
+import { plainCopy } from './plain-copy.ts';
 
 /** Names of things that glTF numbers, as they occur in the keys of extensions. */
 const NUMBERED =
@@ -50,7 +51,7 @@ abstract class KeptProperty extends ExtensionProperty<IKeptProperty> {
   }
 
   setJson(json: object): this {
-    return this.set('json', structuredClone(json) as Record<string, unknown>);
+    return this.set('json', plainCopy(json));
   }
 }
 
@@ -126,7 +127,7 @@ export function keepUnknown(
   if (lost.length > 0) {
     onWarning?.({
       code: 'extension-lost',
-      message: `What the model says in ${lost.join(', ')} is not known here and gets lost.`,
+      message: `What the model says in ${lost.slice(0, NAMED).join(', ')}${lost.length > NAMED ? ` and ${lost.length - NAMED} more extensions` : ''} is not known here and gets lost.`,
       remedy: 'Apply such extensions after baking, if they leave the vertices alone.',
     });
   }
@@ -136,11 +137,13 @@ export function keepUnknown(
 const KEPT_PATHS = new Set(['', ...Object.keys(PLACES).map((place) => `${place}/[]`), 'meshes/[]/primitives/[]']);
 
 /** A file that names more than these is no model; each costs a look at everything. */
-const MOST = 100;
+const MOST = 30;
+/** As many names are told. */
+const NAMED = 10;
 
 /** An extension is lost whole where one of its uses would be: half of it may say the opposite. */
 function sortUnknown(json: GltfJson, names: readonly string[]): { lost: string[]; kept: string[] } {
-  const [asked, lost] = [new Set(names), new Set(names.slice(MOST))];
+  const [asked, lost] = [new Set(names), new Set([...new Set(names)].slice(MOST))];
   const visit = (value: unknown, path: readonly string[]) => {
     if (Array.isArray(value)) {
       for (const member of value) visit(member, [...path, '[]']);
@@ -157,7 +160,7 @@ function sortUnknown(json: GltfJson, names: readonly string[]): { lost: string[]
     }
   };
   visit(json, []);
-  return { lost: names.filter((name) => lost.has(name)), kept: names.filter((name) => !lost.has(name)) };
+  return { lost: [...lost], kept: [...asked].filter((name) => !lost.has(name)) };
 }
 
 /** Whether whole numbers stand under the name of what glTF numbers, or a pointer ("/nodes/3/…") does. */

@@ -28,7 +28,7 @@ export async function plainGltf({ json: value, bin }: RawParts, options: GltfRea
   if (plain?.bytes) options.onWarning?.(decompressed('meshopt'));
   const { json, buffers } = await fetchImages(plain?.json ?? value, plain?.bytes ? [...own, plain.bytes] : own, resources);
   const bufferLengths = buffers.map(({ length }) => length);
-  const fileLength = bufferLengths.reduce((sum, length) => sum + length, 0);
+  const fileLength = [...new Set(buffers)].reduce((sum, { length }) => sum + length, 0);
   return join(await inWords(() => verifyGltf(json, { bufferLengths, fileLength })), buffers);
 }
 
@@ -93,14 +93,17 @@ const TYPES: Readonly<Record<string, string>> = {
 /** A sound file's buffers one behind the other, each at a multiple of 8. */
 function join(json: GltfJson, buffers: readonly Uint8Array[]): GlbParts {
   if (buffers.length === 0) return { json, bin: undefined };
-  const cut = ((json.buffers ?? []) as { byteLength: number }[]).map(({ byteLength }, i) =>
-    (buffers[i] as Uint8Array).subarray(0, byteLength),
-  );
-  const starts: number[] = [];
+  // One file may be several buffers: it goes in once, as far as any of them goes.
+  const ends = new Map<Uint8Array, number>();
+  const lengths = ((json.buffers ?? []) as { byteLength: number }[]).map(({ byteLength }) => byteLength);
+  buffers.forEach((bytes, i) => {
+    ends.set(bytes, Math.max(ends.get(bytes) ?? 0, lengths[i] as number));
+  });
+  const starts = new Map<Uint8Array, number>();
   let length = 0;
-  for (const bytes of cut) {
-    starts.push(length);
-    length += Math.ceil(bytes.length / 8) * 8;
+  for (const [bytes, end] of ends) {
+    starts.set(bytes, length);
+    length += Math.ceil(end / 8) * 8;
   }
   if (length > MAX_BYTES) {
     throw new HandlebodyError('mesh-too-large', {
@@ -109,13 +112,11 @@ function join(json: GltfJson, buffers: readonly Uint8Array[]): GlbParts {
     });
   }
   const bin = new Uint8Array(length);
-  cut.forEach((bytes, i) => {
-    bin.set(bytes, starts[i]);
-  });
+  for (const [bytes, end] of ends) bin.set(bytes.subarray(0, end), starts.get(bytes));
   const views = ((json.bufferViews ?? []) as { buffer: number; byteOffset?: number }[]).map((view) => ({
     ...view,
     buffer: 0,
-    byteOffset: (view.byteOffset ?? 0) + (starts[view.buffer] as number),
+    byteOffset: (view.byteOffset ?? 0) + (starts.get(buffers[view.buffer] as Uint8Array) as number),
   }));
   return {
     json: { ...json, buffers: [{ byteLength: length }], ...(json.bufferViews !== undefined && { bufferViews: views }) },

@@ -7,6 +7,7 @@ import {
   type ReaderContext,
   type WriterContext,
 } from '@gltf-transform/core';
+import { plainCopy } from './plain-copy.ts';
 import { HANDLEBODY_POSE_SPACE } from './schema.ts';
 
 export interface IPoseSpaceProperty {
@@ -46,7 +47,7 @@ export class PoseSpaceProperty extends ExtensionProperty<IPoseSpaceProperty> {
   }
 
   setDefinition(definition: object): this {
-    return this.set('definition', structuredClone(definition) as Record<string, unknown>);
+    return this.set('definition', plainCopy(definition));
   }
 }
 

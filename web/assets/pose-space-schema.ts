@@ -18,6 +18,9 @@ import { asObject, isNumber } from './gltf-json.ts';
 /** The format that is written and read. */
 export const POSE_SPACE_VERSION = 1;
 
+/** An example that names a target takes a row of weights all the same: of more than these a small file would make a large one. */
+const MOST_WEIGHTS = 1 << 20;
+
 /** A pose space as files have it. */
 export interface StoredPoseSpace<Example> {
   readonly version: typeof POSE_SPACE_VERSION;
@@ -57,6 +60,8 @@ export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: nu
     return { name, min, max };
   });
   if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw new Fault('pose-names');
+  const targets = space.examples.filter((entry) => asObject(entry)?.target !== undefined).length;
+  if (targets * targetCount > MOST_WEIGHTS) throw new Fault('pose-many', [targets, targetCount, MOST_WEIGHTS]);
   const examples = space.examples.map((entry, index) => {
     const { name, at: place, weights, target } = asObject(entry) ?? {};
     if (typeof name !== 'string') throw new Fault('pose-example', [index]);

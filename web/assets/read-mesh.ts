@@ -2,6 +2,7 @@ import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/
 import { options as readOptions } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
+import { MAX_PARTS } from './check-reading.ts';
 import { MAX_VERTICES, type MeshRange } from './concatenate.ts';
 import type { PartMode } from './drawn-corners.ts';
 import { gltfDocument, SCENE_READERS } from './given.ts';
@@ -56,6 +57,7 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
   const memo = new Memo(document);
   const lines = { count: 0 };
   let vertices = 0;
+  const distinct = new Set<Accessor>();
 
   const visited = new Set<Node>();
   const stack = scene
@@ -74,11 +76,14 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
       if (mode > 0 && mode < 4) lines.count++;
       if (mode !== 0 && (mode < 4 || mode > 6)) continue;
       vertices += stored.getCount();
-      if (vertices > 2 * MAX_VERTICES) break; // concatenate() refuses it; no need to collect more
+      // joinScene() refuses it; no need to collect more
+      if (vertices > 2 * MAX_VERTICES || found.length > MAX_PARTS) break;
+      distinct.add(stored);
       found.push(partOf({ node, primitive }, { matrix, memo }));
     }
     for (const child of node.listChildren().reverse()) stack.push({ node: child, parent: matrix });
   }
+  checkCopies(vertices, distinct);
   if (lines.count > 0)
     choices.onWarning?.({
       code: 'left-out',
@@ -89,11 +94,26 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
   return { mesh, ranges: parts.map(({ source, ...range }) => ({ ...range, ...source })) };
 }
 
+/** A mesh may hang at several nodes, and a small file so draw what takes much memory: more than that, and more than so many times what is stored. */
+const AMPLE_COPIES = 1 << 20;
+const MOST_COPIES = 64;
+
+function checkCopies(vertices: number, distinct: ReadonlySet<Accessor>): void {
+  let stored = 0;
+  for (const accessor of distinct) stored += accessor.getCount();
+  if (vertices <= Math.max(AMPLE_COPIES, MOST_COPIES * stored)) return;
+  throw new HandlebodyError('mesh-too-large', {
+    message: `The scene draws ${vertices} vertices or more, of ${stored} that are stored, again and again.`,
+    remedy: 'Take copies out of the scene, or use one of its parts.',
+  });
+}
+
 /** What several parts of a scene have in common is read once. */
 class Memo {
   readonly #document: Document;
   readonly #rows = new Map<Accessor, Float32Array>();
   readonly #matrices = new Map<Skin, Pick<PartSkin, 'matrices' | 'root'>>();
+  #loaded: LoadedNodes | undefined;
 
   constructor(document: Document) {
     this.#document = document;
@@ -106,7 +126,8 @@ class Memo {
   }
 
   joints(skin: Skin): Pick<PartSkin, 'matrices' | 'root'> {
-    const known = this.#matrices.get(skin) ?? jointsOf(skin, loadedNodes(this.#document));
+    this.#loaded ??= new LoadedNodes(this.#document);
+    const known = this.#matrices.get(skin) ?? jointsOf(skin, this.#loaded);
     this.#matrices.set(skin, known);
     return known;
   }
@@ -143,16 +164,16 @@ function partOf({ node, primitive }: Source, { matrix, memo }: { matrix: Matrix;
  * The matrices of a skin's joints in the scene. A joint may hang outside every scene: then what nobody asks for above it counts for nothing, as in
  * three.js, which does not load it.
  */
-function jointsOf(skin: Skin, isLoaded: (node: Node) => boolean): Pick<PartSkin, 'matrices' | 'root'> {
+function jointsOf(skin: Skin, loaded: LoadedNodes): Pick<PartSkin, 'matrices' | 'root'> {
   const joints = skin.listJoints();
+  const isJoint = new Set(joints);
   const inverses = skin.getInverseBindMatrices();
   const matrices = joints.map((joint, i) => {
     const inverse = inverses && i < inverses.getCount() ? inverses.getElement(i, []) : IDENTITY;
-    return multiplyMatrices(multiplyMatrices(worldMatrix(joint, isLoaded), inverse), IDENTITY);
+    return multiplyMatrices(multiplyMatrices(loaded.worldMatrix(joint), inverse), IDENTITY);
   });
   const isBelowAnother = (joint: Node) => {
-    for (let above = joint.getParentNode(); above && isLoaded(above); above = above.getParentNode())
-      if (joints.includes(above)) return true;
+    for (let above = loaded.parentOf(joint); above; above = loaded.parentOf(above)) if (isJoint.has(above)) return true;
     return false;
   };
   return {
@@ -164,22 +185,38 @@ function jointsOf(skin: Skin, isLoaded: (node: Node) => boolean): Pick<PartSkin,
   };
 }
 
-function worldMatrix(node: Node, isLoaded: (node: Node) => boolean): Matrix {
-  const parent = node.getParentNode();
-  return multiplyMatrices(parent && isLoaded(parent) ? worldMatrix(parent, isLoaded) : IDENTITY, localMatrix(node));
-}
+/** The nodes that a viewer loads with what hangs below them: those that scenes and animations name, and so on. Joints it loads alone. */
+class LoadedNodes {
+  /** Each node's parent, where that is loaded too: asked for once, since a node looks through all that name it. */
+  readonly #parents = new Map<Node, Node>();
+  readonly #worlds = new Map<Node, Matrix>();
 
-/** Which nodes a viewer loads with what hangs below them: those that scenes and animations name, and so on. Joints it loads alone. */
-function loadedNodes(document: Document): (node: Node) => boolean {
-  const root = document.getRoot();
-  const named = new Set<Node | null>([
-    ...root.listScenes().flatMap((scene) => scene.listChildren()),
-    ...root.listAnimations().flatMap((animation) => animation.listChannels().map((channel) => channel.getTargetNode())),
-  ]);
-  return (node) => {
-    for (let above: Node | null = node; above; above = above.getParentNode()) if (named.has(above)) return true;
-    return false;
-  };
+  constructor(document: Document) {
+    const root = document.getRoot();
+    const loaded = new Set<Node | null>([
+      ...root.listScenes().flatMap((scene) => scene.listChildren()),
+      ...root.listAnimations().flatMap((animation) => animation.listChannels().map((channel) => channel.getTargetNode())),
+    ]);
+    // A set goes on to what is added to it meanwhile.
+    for (const node of loaded)
+      for (const child of node?.listChildren() ?? []) {
+        loaded.add(child);
+        this.#parents.set(child, node as Node);
+      }
+  }
+
+  parentOf(node: Node): Node | undefined {
+    return this.#parents.get(node);
+  }
+
+  worldMatrix(node: Node): Matrix {
+    const known = this.#worlds.get(node);
+    if (known) return known;
+    const parent = this.parentOf(node);
+    const matrix = multiplyMatrices(parent ? this.worldMatrix(parent) : IDENTITY, localMatrix(node));
+    this.#worlds.set(node, matrix);
+    return matrix;
+  }
 }
 
 function localMatrix(node: Node): number[] {

@@ -3,7 +3,7 @@
  * trust these things; a file that breaks them makes them read past the end or walk in circles.
  */
 import { type Fail, Fault } from './fault.ts';
-import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
+import { type CheckIndex, type GltfJson, isDeep, isObject, MAX_DEPTH } from './gltf-json.ts';
 import { verifyNodes } from './verify-nodes.ts';
 
 export interface CheckGltfOptions {
@@ -36,9 +36,18 @@ const LISTS = [
   'samplers',
 ];
 
-/** Accessors may share bytes, so a file can stand for more data than it has; this much more is taken for an attack or a defect. */
-const AMPLIFICATION = 16;
-const AMPLE = 1 << 28;
+/**
+ * Accessors may share bytes, or have none but a few sparse ones, so a file can stand for more data than it has, as floats; this much more is
+ * taken for an attack or a defect. Faces of a hundred sparse morph targets stand for some thirty times their bytes. A stream of Draco's says
+ * nothing of how much is in it.
+ */
+export const AMPLIFICATION = 64;
+export const AMPLE = 1 << 20;
+const AMPLE_DRACO = 1 << 26;
+
+/** Each member costs a reader of objects ten times its bytes and more, and a node some time for each scene that lists it. */
+const MOST = 1 << 16;
+const MOST_SCENES = 256;
 
 /** Returns the JSON when it is sound. Throws a `Fault` as `checkGltf` has it in words. */
 export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): GltfJson {
@@ -51,9 +60,14 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
     return n as number;
   };
   const json = isObject(value) ? value : fail('json-object');
+  if (isDeep(json)) fail('nested', [MAX_DEPTH]);
   checkAsset(json, fail);
   const lists = Object.fromEntries([...LISTS, 'scenes', 'skins', 'textures'].map((name) => [name, list(json, name, fail)]));
   const count = (name: string) => lists[name]?.length ?? 0;
+  for (const name of Object.keys(lists)) {
+    const most = name === 'scenes' ? MOST_SCENES : MOST;
+    if (count(name) > most) fail('many', [name, count(name), most]);
+  }
 
   const buffers = (lists.buffers ?? []).map((buffer, i) => {
     const length = isIndex(buffer.byteLength) ? buffer.byteLength : fail('buffer-length', [i]);
@@ -94,14 +108,15 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
       fits({ ...indices, count: sparse.count }, `the sparse indices of accessor ${i}`, indexBytes);
       fits({ ...values, count: sparse.count }, `the sparse values of accessor ${i}`, bytes * components);
     }
-    total += (accessor.count as number) * components * bytes;
+    total += (accessor.count as number) * components * 4;
   }
-  if (total > Math.max(AMPLE, AMPLIFICATION * (options.fileLength ?? Number.POSITIVE_INFINITY))) {
-    fail('amplified', [total]);
-  }
+  const ample = (json.extensionsUsed as string[] | undefined)?.includes('KHR_draco_mesh_compression') ? AMPLE_DRACO : AMPLE;
+  if (total > Math.max(ample, AMPLIFICATION * (options.fileLength ?? Number.POSITIVE_INFINITY))) fail('amplified', [total]);
 
+  let primitives = 0;
   for (const [i, mesh] of (lists.meshes ?? []).entries()) {
     for (const [j, primitive] of list(mesh, 'primitives', fail, `mesh ${i}`).entries()) {
+      if (++primitives > MOST) fail('many', ['primitives or more', primitives, MOST]);
       const path = `primitive ${j} of mesh ${i}`;
       if (primitive.mode !== undefined) index(primitive.mode, 7, `the mode of ${path}`);
       if (primitive.indices !== undefined) index(primitive.indices, count('accessors'), `the indices of ${path}`);

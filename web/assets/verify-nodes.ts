@@ -1,9 +1,6 @@
 /** The scene part of a glTF's JSON: references of nodes, scenes, skins and animations, and that nodes form a forest. */
 import type { Fail } from './fault.ts';
-import { type CheckIndex, type GltfJson, isObject } from './gltf-json.ts';
-
-/** Deeper trees overflow the stack of readers that recurse; real ones have some tens of levels. */
-const MAX_DEPTH = 512;
+import { type CheckIndex, type GltfJson, isObject, MAX_DEPTH } from './gltf-json.ts';
 
 const TRANSFORMS = { translation: 3, rotation: 4, scale: 3, matrix: 16 };
 

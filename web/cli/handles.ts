@@ -9,6 +9,7 @@
 import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Handle, Vec3 } from '../../wasm/ts/types.ts';
 import { decodeText } from '../assets/decode-text.ts';
+import { show } from '../assets/gltf-json.ts';
 
 interface HandlesFile {
   readonly handles: readonly Handle[];
@@ -25,7 +26,7 @@ export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: 
   const file = parseJson(bytes);
   if (!isObject(file)) throw invalid('should be an object: { "handles": [...] }.');
   const stray = Object.keys(file).find((key) => !TOP.includes(key));
-  if (stray !== undefined) throw invalid(`has an unknown key ${JSON.stringify(stray)}.`, TOP);
+  if (stray !== undefined) throw invalid(`has an unknown key ${show(stray)}.`, TOP);
   if (!Array.isArray(file.handles) || file.handles.length === 0) throw invalid('has no list of handles, or an empty one.', TOP);
 
   const targets = new Float64Array(file.handles.length * 10);
@@ -36,9 +37,9 @@ export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: 
   });
   const { relativeWidth, smoothness } = file;
   if (relativeWidth !== undefined && !(isNumber(relativeWidth) && relativeWidth > 0))
-    throw invalid(`has the relativeWidth ${JSON.stringify(relativeWidth)}, which should be a number above 0.`);
+    throw invalid(`has the relativeWidth ${show(relativeWidth)}, which should be a number above 0.`);
   if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness > 0))
-    throw invalid(`has the smoothness ${JSON.stringify(smoothness)}, which should be a number above 0, or "auto".`);
+    throw invalid(`has the smoothness ${show(smoothness)}, which should be a number above 0, or "auto".`);
   const options = { ...(relativeWidth !== undefined && { relativeWidth }), ...(smoothness !== undefined && { smoothness }) };
   return { handles, targets, options: options as HandlesFile['options'] };
 }
@@ -52,7 +53,7 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
     });
   if (!isObject(entry)) throw fail('is no object');
   const stray = Object.keys(entry).find((key) => !KEYS.includes(key));
-  if (stray !== undefined) throw fail(`has an unknown key ${JSON.stringify(stray)}`);
+  if (stray !== undefined) throw fail(`has an unknown key ${show(stray)}`);
 
   const numbers = (key: string, length: number, code: ErrorCode): number[] => {
     const value = entry[key];
@@ -69,7 +70,7 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
       );
     if ('at' in entry) return { at: numbers('at', 3, 'handle-not-finite') as unknown as Vec3 };
     const vertex = entry.vertex;
-    if (!Number.isInteger(vertex)) throw fail(`has the vertex ${JSON.stringify(vertex)}, which should be a whole number`);
+    if (!Number.isInteger(vertex)) throw fail(`has the vertex ${show(vertex)}, which should be a whole number`);
     if ((vertex as number) >= 0 && (vertex as number) < vertexCount) return { vertex: vertex as number };
     throw fail(`sits on vertex ${vertex}, and the model has ${vertexCount} vertices`, {
       code: 'handle-out-of-range',

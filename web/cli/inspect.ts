@@ -85,10 +85,15 @@ async function describeBodyOf(document: Document, report: Report) {
 
 function describePoseSpaces(document: Document, report: Report) {
   try {
-    const meshes = document.getRoot().listMeshes();
+    const numbers = new Map(
+      document
+        .getRoot()
+        .listMeshes()
+        .map((mesh, number) => [mesh, number]),
+    );
     return readPoseSpaces(document).map(({ mesh, dimensions, examples, version }) => ({
       mesh: mesh.getName(),
-      meshNumber: meshes.indexOf(mesh),
+      meshNumber: numbers.get(mesh) ?? -1,
       version,
       targets: examples[0]?.weights.length ?? 0,
       dimensions,

@@ -73,8 +73,13 @@ function choosePoseSpace(document: Document, values: Values, input: string): Fou
       remedy: 'Use a model with the extension HANDLEBODY_pose_space, such as attachPoseSpace of "handlebody/gltf-transform" makes.',
     });
   }
-  const meshes = document.getRoot().listMeshes();
-  const found = spaces.map((space) => ({ space, number: meshes.indexOf(space.mesh), name: space.mesh.getName() }));
+  const numbers = new Map(
+    document
+      .getRoot()
+      .listMeshes()
+      .map((mesh, number) => [mesh, number]),
+  );
+  const found = spaces.map((space) => ({ space, number: numbers.get(space.mesh) ?? -1, name: space.mesh.getName() }));
   const names = found.map(({ number, name }) => (name ? `${number} (${JSON.stringify(name)})` : `${number} (no name)`)).join(', ');
   if (values.mesh === undefined) {
     if (others.length === 0) return only;
@@ -95,6 +100,7 @@ function choosePoseSpace(document: Document, values: Values, input: string): Fou
 /** "valence=0.6,arousal=0.4" as one number a dimension. */
 function parsePlace(text: string, { dimensions }: PoseSpaceData): Float64Array {
   const names = dimensions.map(({ name }) => name);
+  const places = new Map(names.map((name, i) => [name, i]));
   const place = new Float64Array(names.length).fill(Number.NaN);
   const example = names.map((name) => `${name}=0`).join(',');
   for (const part of text.split(',')) {
@@ -102,8 +108,8 @@ function parsePlace(text: string, { dimensions }: PoseSpaceData): Float64Array {
     const [name, number] = [part.slice(0, Math.max(equals, 0)).trim(), part.slice(equals + 1).trim()];
     if (equals === -1 || number === '' || !Number.isFinite(Number(number)))
       throw usageError(`--at has "${part}" where a name and a number should be.`, `Write it as --at ${example}.`);
-    const index = names.indexOf(name);
-    if (index === -1) throw usageError(`The pose space has no dimension called "${name}".`, `It has: ${names.join(', ')}.`);
+    const index = places.get(name);
+    if (index === undefined) throw usageError(`The pose space has no dimension called "${name}".`, `It has: ${names.join(', ')}.`);
     if (!Number.isNaN(place[index])) throw usageError(`--at gives ${name} twice.`, 'Give it once.');
     place[index] = Number(number);
   }
@@ -144,11 +150,12 @@ function setWeights(document: Document, mesh: Mesh, targets: number[], report: R
     .listNodes()
     .filter((node) => node.getMesh() === mesh);
   for (const node of nodes) node.setWeights([]);
+  const moved = new Set<unknown>(nodes);
   const channels = document
     .getRoot()
     .listAnimations()
     .flatMap((animation) => animation.listChannels());
-  if (channels.some((channel) => channel.getTargetPath() === 'weights' && nodes.some((node) => node === channel.getTargetNode())))
+  if (channels.some((channel) => channel.getTargetPath() === 'weights' && moved.has(channel.getTargetNode())))
     report.note('An animation of the model sets the same weights and wins while it plays.');
 }
 

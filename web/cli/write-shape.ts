@@ -60,26 +60,24 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   const primitives = unshare(ranges);
   const notes = new Set<string>();
   // One accessor serves several primitives where it did before: what is equal at rest, and in the same place, is equal now.
-  const written = new Map<Accessor, Twin[]>();
+  const written = new Map<Accessor, Map<string, Accessor>>();
+  const numberOf = numbering();
 
   ranges.forEach((range, r) => {
     const primitive = primitives[r] as Primitive;
     const before = stored[r] as (typeof stored)[number];
-    const frame = { matrix: Array.from(range.matrix).join(), offset: offsetKey(range) };
+    const key = [...Array.from(range.matrix), numberOf(before.POSITION), ...offsetKey(range).map(numberOf)].join();
     for (const attribute of ['POSITION', 'NORMAL'] as const) {
       const from = before[attribute];
       if (!from) continue;
-      const twins = written.get(from) ?? [];
-      const twin = twins.find(
-        (w) => w.with === before.POSITION && w.matrix === frame.matrix && w.offset.every((x, i) => x === frame.offset[i]),
-      );
+      const twins = written.get(from) ?? new Map<string, Accessor>();
       const make = () => {
         const inverse = inverses[r] as Sixteen;
         const array = attribute === 'POSITION' ? positionsOf(range, shape.positions, inverse) : normalsOf(range, shape.normals);
         return document.createAccessor(from.getName(), from.getBuffer()).setType('VEC3').setArray(array);
       };
-      const to = twin?.to ?? make();
-      if (!twin) written.set(from, [...twins, { with: before.POSITION, ...frame, to }]);
+      const to = twins.get(key) ?? make();
+      written.set(from, twins.set(key, to));
       primitive.setAttribute(attribute, to);
     }
     if (primitive.getAttribute('TANGENT')) {
@@ -94,15 +92,17 @@ export function writeShape(document: Document, ranges: readonly PrimitiveRange[]
   return [...notes];
 }
 
-/** What was written, and what it depends on beside the accessor that it replaces. */
-interface Twin {
-  readonly with: Accessor | null;
-  readonly matrix: string;
-  readonly offset: readonly unknown[];
-  readonly to: Accessor;
+/** Numbers for things, the same for the same: keys of what depends on several of them. */
+function numbering(): (thing: unknown) => number {
+  const numbers = new Map<unknown, number>();
+  return (thing) => {
+    const number = numbers.get(thing) ?? numbers.size;
+    numbers.set(thing, number);
+    return number;
+  };
 }
 
-/** The morph targets that were in the shape, and their weights; always as many items. */
+/** The morph targets that were in the shape, and their weights. */
 function offsetKey({ primitive, weights }: PrimitiveRange): unknown[] {
   if (!weights) return [];
   return primitive
@@ -112,20 +112,21 @@ function offsetKey({ primitive, weights }: PrimitiveRange): unknown[] {
 
 /** One primitive a range that no other node uses: a mesh with several users is copied for each but the last. */
 function unshare(ranges: readonly PrimitiveRange[]): Primitive[] {
-  const copies = new Map<Node, { from: Mesh; to: Mesh }>();
+  const copies = new Map<Node, Map<Primitive, Primitive>>();
+  const users = new Map<Mesh, number>();
   for (const node of new Set(ranges.map((range) => range.node))) {
     const mesh = node.getMesh() as Mesh;
-    if (mesh.listParents().filter((parent) => parent.propertyType === 'Node').length < 2) continue;
+    const left = users.get(mesh) ?? mesh.listParents().filter((parent) => parent.propertyType === 'Node').length;
+    users.set(mesh, left - 1);
+    if (left < 2) continue;
     const copy = mesh.clone();
     for (const primitive of copy.listPrimitives()) copy.removePrimitive(primitive);
-    for (const primitive of mesh.listPrimitives()) copy.addPrimitive(primitive.clone());
+    const primitives = new Map(mesh.listPrimitives().map((primitive) => [primitive, primitive.clone()]));
+    for (const primitive of primitives.values()) copy.addPrimitive(primitive);
     node.setMesh(copy);
-    copies.set(node, { from: mesh, to: copy });
+    copies.set(node, primitives);
   }
-  return ranges.map(({ node, primitive }) => {
-    const copy = copies.get(node);
-    return copy ? (copy.to.listPrimitives()[copy.from.listPrimitives().indexOf(primitive)] as Primitive) : primitive;
-  });
+  return ranges.map(({ node, primitive }) => copies.get(node)?.get(primitive) ?? primitive);
 }
 
 function positionsOf(range: PrimitiveRange, scene: Float32Array, m: Sixteen): Float32Array<ArrayBuffer> {

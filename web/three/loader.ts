@@ -109,12 +109,16 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
     const { parsePoseSpace } = await import('../assets/pose-space-schema.ts');
     // The loader's own list of what came of what knows one scene alone.
     const objects: Object3D[] = await this.#parser.getDependencies('node');
+    const isNode = new Set(objects);
+    const users: Object3D[][] = meshes.map(() => []);
+    objects.forEach((object, i) => {
+      users[nodes[i]?.mesh ?? -1]?.push(object);
+    });
     return meshes.flatMap(({ extensions, primitives }, index) => {
       const json = extensions?.[HANDLEBODY_POSE_SPACE];
       if (!json) return [];
       const space = parsePoseSpace(json, { targetCount: primitives[0]?.targets?.length ?? 0 });
-      const users = objects.filter((_, i) => nodes[i]?.mesh === index);
-      return [{ ...space, meshes: users.flatMap((node) => meshesOf(node, objects)) }];
+      return [{ ...space, meshes: (users[index] ?? []).flatMap((node) => meshesOf(node, isNode)) }];
     });
   }
 }
@@ -125,7 +129,7 @@ interface PosedJson {
 }
 
 /** A node's own meshes, one for each primitive, and not those of the nodes below it. */
-function meshesOf(object: Object3D, nodes: readonly Object3D[]): ThreeMesh[] {
-  const below = object.children.filter((child) => !nodes.includes(child)).flatMap((child) => meshesOf(child, nodes));
+function meshesOf(object: Object3D, nodes: ReadonlySet<Object3D>): ThreeMesh[] {
+  const below = object.children.filter((child) => !nodes.has(child)).flatMap((child) => meshesOf(child, nodes));
   return isMesh(object) ? [object, ...below] : below;
 }

@@ -1,0 +1,69 @@
+// One kind of hostile input at one size, in a process of its own: `side.mjs KIND BYTES`. Prints time, memory and how it ended.
+import { fileFormat } from '../../../dist/web/assets/file-format.js';
+import * as assets from '../../../dist/web/assets/index.js';
+import { parseHandles } from '../../../dist/web/cli/handles.js';
+import { median } from '../support.mjs';
+import { KINDS } from './kinds.mjs';
+
+const ROUNDS = 5;
+
+/** @param {Uint8Array} bytes @param {typeof assets.readGlb} read */
+async function readAll(bytes, read) {
+  const document = await read(bytes, { resource: async () => new Uint8Array(1e5) });
+  const ends = [];
+  for (const look of [
+    () => assets.readMesh(document, { morphs: 'present' }),
+    () => assets.readBody(document),
+    () => assets.readPoseSpaces(document),
+  ])
+    try {
+      await look();
+    } catch (error) {
+      ends.push(nameOf(error));
+    }
+  return ends.join(', ') || 'read';
+}
+
+/** @type {Record<string, (bytes: Uint8Array) => unknown>} */
+const READERS = {
+  readObj: assets.readObj,
+  readPly: assets.readPly,
+  readOff: assets.readOff,
+  readStl: assets.readStl,
+  glb: (bytes) => readAll(bytes, assets.readGlb),
+  gltf: (bytes) => readAll(bytes, assets.readGltf),
+  handles: (bytes) => parseHandles(bytes, { vertexCount: 1 }),
+  format: (bytes) => fileFormat(bytes, 'a'),
+};
+
+/** @param {unknown} error */
+const nameOf = (error) =>
+  error instanceof Error && 'code' in error && 'remedy' in error ? String(error.code) : `UNTYPED ${String(error).slice(0, 80)}`;
+
+const [name, size] = process.argv.slice(2);
+const kind = KINDS[name ?? ''];
+const read = kind && READERS[kind.reader];
+if (!kind || !read) throw new Error(`There is no kind "${name}".`);
+const bytes = kind.make(Number(size));
+const warm = kind.make(2000);
+for (let i = 0; i < 20; i++)
+  await Promise.resolve(warm)
+    .then(read)
+    .catch(() => {});
+globalThis.gc?.();
+const before = process.memoryUsage().rss;
+const times = [];
+let end = '';
+for (let round = 0; round < ROUNDS; round++) {
+  const start = performance.now();
+  try {
+    const given = await read(bytes);
+    end = typeof given === 'string' ? given : 'read';
+  } catch (error) {
+    end = nameOf(error);
+  }
+  times.push(performance.now() - start);
+  if (performance.now() - start > 20000) break;
+}
+const peak = process.resourceUsage().maxRSS * 1024 - before;
+console.log(JSON.stringify({ bytes: bytes.length, milliseconds: median(times), peak, end }));
