@@ -73,6 +73,13 @@ export async function writeGlb(from: Document | GlbMesh, options: WriteMeshOptio
   for (const accessor of sparse) accessor.setSparse(false);
   try {
     return await io.writeBinary(document);
+  } catch (cause) {
+    if (cause instanceof HandlebodyError) throw cause;
+    throw new HandlebodyError('file-invalid', {
+      message: `The document cannot be written as glTF: ${cause instanceof Error ? cause.message : String(cause)}.`,
+      remedy: 'Something in it, a color or a number perhaps, is not of its type: read the model anew from a sound file.',
+      cause,
+    });
   } finally {
     for (const accessor of sparse) accessor.setSparse(true);
   }

@@ -138,12 +138,12 @@ const KEPT_PATHS = new Set(['', ...Object.keys(PLACES).map((place) => `${place}/
 
 /** A file that names more than these is no model; each costs a look at everything. */
 const MOST = 30;
-/** As many names are told. */
+/** As many names are told; one that every object has, such as "constructor", glTF-Transform cannot keep. */
 const NAMED = 10;
 
 /** An extension is lost whole where one of its uses would be: half of it may say the opposite. */
 function sortUnknown(json: GltfJson, names: readonly string[]): { lost: string[]; kept: string[] } {
-  const [asked, lost] = [new Set(names), new Set([...new Set(names)].slice(MOST))];
+  const [asked, lost] = [new Set(names), new Set([...new Set(names)].filter((name, i) => i >= MOST || name in {}))];
   const visit = (value: unknown, path: readonly string[]) => {
     if (Array.isArray(value)) {
       for (const member of value) visit(member, [...path, '[]']);

@@ -28,7 +28,7 @@ export function parseCommandLine(command: string, args: string[], own: Options):
   const remedy = `Run "handlebody ${command} --help" to see what it takes.`;
   try {
     const { values, positionals, tokens } = parseArgs({
-      args: joinNegative(args),
+      args: joinPlace(args),
       options: { ...COMMON, ...own },
       allowPositionals: true,
       tokens: true,
@@ -51,7 +51,12 @@ export function theFile(command: string, words: readonly string[], what: string)
   if (file === undefined || file === '')
     throw usageError(`"handlebody ${command}" needs ${what}.`, `See "handlebody ${command} --help".`);
   if (rest.length > 0)
-    throw usageError(`There is more than one file: "${file}" and "${rest[0]}".`, 'Give one; the output comes after -o.');
+    throw usageError(
+      `There is more than one file: "${file}" and "${rest[0]}".`,
+      command === 'pose'
+        ? 'Give one; the output comes after -o, and a place without blanks after --at: NAME=X,NAME=Y.'
+        : 'Give one; the output comes after -o.',
+    );
   return file;
 }
 
@@ -77,7 +82,7 @@ export function count(values: Values, name: string): number | undefined {
   const value = values[name];
   if (value === undefined) return undefined;
   const number = Number(value);
-  if (typeof value === 'string' && /^\d+$/.test(value) && number >= 1 && number <= 0xffff_ffff) return number;
+  if (typeof value === 'string' && /^\d+$/.test(value) && number >= 1 && number <= 0x7fff_ffff) return number;
   throw usageError(`--${name} is "${value}".`, 'Give a positive whole number.');
 }
 
@@ -88,12 +93,22 @@ export function oneOf<T extends string>(values: Values, name: string, known: rea
   throw usageError(`--${name} is "${value}".`, `Use one of: ${known.join(', ')}.`);
 }
 
-/** `--at -0.5=…` never occurs, but `--at valence=…` may follow as "--at" "-x=1": Node refuses values that begin with a dash. */
-function joinNegative(args: readonly string[]): string[] {
+/** What may be a part of a place: "valence=0.6", or a number, which is told to lack its name. */
+const PART = /=|^[-+]?\.?\d[^/\\]*$/;
+
+/**
+ * A place may be several words, "--at valence=0.6 arousal=0.4", and begin with a dash, "--at -x=1", which Node takes for an option: both
+ * become one word.
+ */
+function joinPlace(args: readonly string[]): string[] {
   const out: string[] = [];
+  let isPlace = false;
   for (const arg of args) {
-    if (out.at(-1) === '--at' && arg.startsWith('-') && arg.includes('=')) out[out.length - 1] = `--at=${arg}`;
+    const isPart = PART.test(arg) && !arg.startsWith('--');
+    if (out.at(-1) === '--at' && (isPart || !arg.startsWith('-'))) out[out.length - 1] = `--at=${arg}`;
+    else if (isPlace && isPart) out[out.length - 1] += `,${arg}`;
     else out.push(arg);
+    isPlace = /^--at=/.test(out.at(-1) ?? '');
   }
   return out;
 }

@@ -6,7 +6,7 @@ import { Clock } from './clock.ts';
 import { DEFORM_OPTIONS, deformCommand } from './deform.ts';
 import { EMBED_OPTIONS, embedCommand } from './embed.ts';
 import { EXIT } from './exit-codes.ts';
-import { reason, unwritable } from './files.ts';
+import { reason, STANDARD_OUTPUT, unwritable } from './files.ts';
 import { HELP } from './help.ts';
 import { inspectCommand } from './inspect.ts';
 import { packageVersion } from './package.ts';
@@ -43,7 +43,7 @@ export async function runCommand(args: readonly string[]): Promise<number> {
     await setImmediate();
     if (lost === undefined || status === EXIT.output) return status;
     report.leaveStandardOutput();
-    return report.error(unwritable('standard output', reason(lost), lost));
+    return report.error(unwritable(STANDARD_OUTPUT, reason(lost), lost));
   } finally {
     process.off('SIGINT', stop).off('SIGTERM', stop);
   }
@@ -59,11 +59,13 @@ async function dispatch([name, ...args]: readonly string[], report: Report, sign
     return EXIT.ok;
   }
   if (name === '--help' || name === '-h' || name === 'help') {
-    process.stdout.write(`${HELP[args[0] ?? ''] ?? HELP['']}\n`);
+    const [asked = ''] = args.filter((word) => !word.startsWith('-'));
+    if (asked !== '' && asked !== 'help' && !COMMANDS.has(asked)) throw unknownCommand(asked);
+    process.stdout.write(`${HELP[asked] ?? HELP['']}\n`);
     return EXIT.ok;
   }
   const command = COMMANDS.get(name);
-  if (!command) throw usageError(`There is no command "${name}".`, `Use one of: ${[...COMMANDS.keys()].join(', ')}.`);
+  if (!command) throw unknownCommand(name);
   if (args.includes('--help') || args.includes('-h')) {
     process.stdout.write(`${HELP[name]}\n`);
     return EXIT.ok;
@@ -73,6 +75,10 @@ async function dispatch([name, ...args]: readonly string[], report: Report, sign
   if (isStandardOutput(values.output)) report.leaveStandardOutput();
   await command.run({ values, words, report, signal, clock: new Clock() });
   return EXIT.ok;
+}
+
+function unknownCommand(name: string): HandlebodyError {
+  return usageError(`There is no command "${name.slice(0, 80)}".`, `Use one of: ${[...COMMANDS.keys()].join(', ')}.`);
 }
 
 /** Ctrl-C lets the work end in order. One that comes a second later ends it at once: nothing half-written is ever there to clean up. */

@@ -9,6 +9,7 @@ import { modelBytes, naming, readModel } from './model.ts';
 import { readBack } from './read-back.ts';
 import type { Report } from './report.ts';
 import type { Run } from './run.ts';
+import { isStandardInput } from './special-files.ts';
 import { sceneNormals, writeShape } from './write-shape.ts';
 
 export const DEFORM_OPTIONS: Options = { ...WRITES, handles: { type: 'string' } };
@@ -25,6 +26,8 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
       '"handlebody deform" needs handles.',
       'Add --handles and the name of a JSON file; "handlebody deform --help" shows one.',
     );
+  if (isStandardInput(input) && isStandardInput(handlesName))
+    throw usageError('The model and the handles are both standard input.', 'Give one of them as a file.');
   const output = prepareOutput(theOutput('deform', values), { inputs: [input, handlesName], force: values.force === true });
 
   const { document } = await readModel(await readInput(input), input, report);

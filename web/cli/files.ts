@@ -17,24 +17,43 @@ import {
   writeFileSync,
   writeSync,
 } from 'node:fs';
-import { readFile } from 'node:fs/promises';
+import { readFile, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { setImmediate } from 'node:timers/promises';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { usageError } from './arguments.ts';
-import { isStandardOutput } from './special-files.ts';
+import { isStandardInput, isStandardOutput } from './special-files.ts';
 
 /** Throws 'file-unreadable'. */
 export async function readInput(file: string): Promise<Uint8Array> {
   try {
+    if (isStandardInput(file)) return await readStandardInput();
+    // One may give bytes for ever.
+    if ((await stat(file)).isCharacterDevice()) throw new Error('it is a device');
     return await readFile(file);
   } catch (cause) {
+    if (cause instanceof HandlebodyError) throw cause;
     throw new HandlebodyError('file-unreadable', {
       message: `"${file}" cannot be read: ${reason(cause)}.`,
       remedy: 'Check its name, and that you may read it.',
       cause,
     });
   }
+}
+
+/** Of standard input, which may never end; files tell their length. */
+const MOST_INPUT = 2 ** 30;
+
+async function readStandardInput(): Promise<Uint8Array> {
+  if (process.stdin.isTTY)
+    throw usageError('Standard input is a terminal, and a model is not typed.', 'Give a file, or send one in: < MODEL.glb.');
+  const chunks: Buffer[] = [];
+  let length = 0;
+  for await (const chunk of process.stdin) {
+    length += chunks[chunks.push(chunk as Buffer) - 1]?.length ?? 0;
+    if (length > MOST_INPUT) throw new Error(`it has more than ${MOST_INPUT / 2 ** 20} MiB`);
+  }
+  return Buffer.concat(chunks);
 }
 
 /** A place to write to, looked at before the work begins. */
@@ -134,10 +153,16 @@ function isSame(a: Stats, file: string): boolean {
   }
 }
 
+/** As messages call it where it was not named as an output. */
+export const STANDARD_OUTPUT = 'standard output';
+
 export function unwritable(name: string, why: string, cause?: unknown): HandlebodyError {
   return new HandlebodyError('output-unwritable', {
     message: `"${name}" cannot be written: ${why}.`,
-    remedy: 'Give another place after -o: a folder that is there and that you may write to.',
+    remedy:
+      name === STANDARD_OUTPUT
+        ? 'Send what is printed to a place with room for it, or leave it on the terminal.'
+        : 'Give another place after -o: a folder that is there, has room and that you may write to.',
     cause,
   });
 }

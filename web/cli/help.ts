@@ -33,6 +33,7 @@ export const HELP: Record<string, string> = {
   handlebody embed NAME|BODY.glb|FACE.glb -o FILE.html [--state STATE] [--title TEXT] [--json]
 
   handlebody COMMAND --help tells more of each; --version prints the version.
+  A model called - is standard input, and so are handles.
 
 ${EXIT_CODES}`,
 
