@@ -30,7 +30,8 @@ const PAGES = [
     page: 'studio/index.html',
     // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
     later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json)/, /^three\/farthest/],
-    budget: { 'with three.js': 405_000, without: 248_000 },
+    // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped.
+    budget: { 'with three.js': 411_000, without: 252_000 },
   },
   {
     name: 'one tag',
@@ -47,7 +48,7 @@ const PAGES = [
       /^_bake-in-worker/,
       /^assets\/open-unusual/,
     ],
-    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 40_000 },
+    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 41_000 },
   },
 ];
 

@@ -193,7 +193,7 @@ function asList(value: unknown): ArrayLike<unknown> | undefined {
 }
 
 /** What is read of three.js' BufferAttribute. */
-interface Attribute {
+export interface Attribute {
   readonly count: number;
   readonly itemSize: number;
   getComponent(index: number, component: number): number;
@@ -259,7 +259,7 @@ export function row(value: unknown, name: string, length: number, rule: Rule = {
   const list = numbers(value, name, rule);
   if (list.length === length) return list;
   throw new HandlebodyError('invalid-shape', {
-    message: `The "${name}"${rule.called === undefined ? '' : ` of ${told(rule.called)}`} has ${list.length} numbers.`,
+    message: `The "${name}"${rule.called === undefined ? '' : ` of ${told(rule.called)}`} has ${list.length} numbers instead of ${length}.`,
     remedy: `Give ${length}.`,
     culprit: rule.kind && { kind: rule.kind, index: rule.index ?? -1 },
   });

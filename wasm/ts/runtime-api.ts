@@ -1,4 +1,5 @@
 /** What every entry module exports besides its `load`. */
+export type { Attribute, Numbers, Vector } from './arguments.ts';
 export { DualQuaternion } from './dual-quaternion.ts';
 export {
   type Culprit,

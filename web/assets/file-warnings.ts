@@ -1,7 +1,6 @@
 /** What readers of simple files pass over, or, in strict reading, refuse: one rule for all formats. */
-import { options } from '../../wasm/ts/arguments.ts';
+import { flag, optional, options } from '../../wasm/ts/arguments.ts';
 import type { HandlebodyError } from '../../wasm/ts/errors.ts';
-import { STRICT } from './given.ts';
 
 /** How a reader of OBJ, PLY, STL or OFF is to read. */
 export interface ReadOptions {
@@ -124,7 +123,7 @@ export class PassedOver {
   readonly #counts = new Map<FileWarningCode, { count: number; readonly first: HandlebodyError }>();
 
   constructor(given: ReadOptions) {
-    this.#strict = options(given, STRICT).strict ?? false;
+    this.#strict = options(given, { strict: optional(flag) }).strict ?? false;
   }
 
   /** One more, or `count`. `refusal` is what strict reading throws at once, unless the format allows what is passed over. */

@@ -1,8 +1,6 @@
 /** What callers give the readers and writers of files and scenes: read, or refused by name, as everywhere (wasm/ts/arguments.ts). */
 import type { Document, Mesh } from '@gltf-transform/core';
-import { callback, flag, named, object, optional, type Reader, type Readers, refused, text } from '../../wasm/ts/arguments.ts';
-import type { ReadOptions } from './file-warnings.ts';
-import type { SceneChoices } from './scene-choices.ts';
+import { callback, object, optional, type Reader, refused, text } from '../../wasm/ts/arguments.ts';
 
 export const gltfDocument: Reader<Document> = (value, name) => {
   if (typeof (value as Document | null)?.getRoot === 'function') return value as Document;
@@ -16,15 +14,6 @@ export const gltfMesh: Reader<Mesh> = (value, name) => {
 
 /** Anything with properties, which are checked where they are used. */
 const thing: Reader<object> = (value, name) => object(value, name, 'Give an object.');
-
-export const SCENE_READERS = {
-  morphs: optional(named(['rest', 'present'])),
-  hidden: optional(named(['skip', 'take'])),
-  reading: optional(thing),
-  onWarning: optional(callback),
-} satisfies Readers<SceneChoices>;
-
-export const STRICT = { strict: optional(flag) } satisfies Readers<ReadOptions>;
 
 const extensions: Reader<readonly unknown[]> = (value, name) => {
   const isExtension = (each: unknown) => typeof each === 'function' && 'EXTENSION_NAME' in each;

@@ -5,10 +5,10 @@ import type { Mesh } from '../../wasm/ts/types.ts';
 import { MAX_PARTS } from './check-reading.ts';
 import { MAX_VERTICES, type MeshRange } from './concatenate.ts';
 import type { PartMode } from './drawn-corners.ts';
-import { gltfDocument, SCENE_READERS } from './given.ts';
+import { gltfDocument } from './given.ts';
 import { refuseInstancing } from './gpu-instancing.ts';
 import { joinScene, type ScenePart } from './join-scene.ts';
-import type { SceneChoices } from './scene-choices.ts';
+import { SCENE_READERS, type SceneChoices } from './scene-choices.ts';
 import type { PartSkin } from './skin-frame.ts';
 import { composeMatrix, IDENTITY, type Matrix, multiplyMatrices } from './transform.ts';
 

@@ -1,4 +1,5 @@
 /** What can be chosen when a scene is read, and what is said about it; the same for glTF-Transform's documents and three.js' objects. */
+import { callback, named, object, optional, type Readers } from '../../wasm/ts/arguments.ts';
 import type { MeshReading } from '../../wasm/ts/types.ts';
 
 /** What a scene's reader warns of. */
@@ -32,3 +33,11 @@ export interface SceneChoices {
   /** Called for each thing that is not as it may seem. */
   readonly onWarning?: ((warning: SceneWarning) => void) | undefined;
 }
+
+export const SCENE_READERS = {
+  morphs: optional(named(['rest', 'present'])),
+  hidden: optional(named(['skip', 'take'])),
+  // Its contents are checked where they are used.
+  reading: optional((value, name) => object(value, name, 'Give body.mesh.reading.')),
+  onWarning: optional(callback),
+} satisfies Readers<SceneChoices>;

@@ -72,13 +72,14 @@ export const DRAGGABLE_DEFAULTS = { iterations: 4, count: 6 } as const;
 /** A handle this near to rest, in diagonals, is at rest. */
 const AT_REST = 5e-4;
 
+const handleList = (value: unknown, name: string) =>
+  list(value, name, 'handles', (each, label) => record(each, label, 'Give { vertex } or { at }.'));
+
 const READERS = {
   hb: solver,
   camera,
   container,
-  handles: optional((value, name) =>
-    list(value, name, 'handles', (each, label) => record(each, label, 'Give { vertex } or { at }.')),
-  ),
+  handles: optional(handleList),
   unstyled: optional(flag),
   iterations: optional(whole(1, 1e6)),
   onWake: optional(callback),
@@ -185,7 +186,7 @@ export class Draggable {
 
   /** Other handles, at rest. The former ones stay where these are refused. Throws what `Irbf.setHandles` throws. */
   setHandles(handles: readonly DraggableHandle[]): void {
-    READERS.handles(handles, 'handles');
+    handleList(handles, 'handles');
     this.#hold(
       handles,
       handles.map((handle) => this.#live.rest(handle)),

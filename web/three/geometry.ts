@@ -2,9 +2,8 @@
 import type { BufferAttribute, InterleavedBufferAttribute, LOD, Object3D, Points, Mesh as ThreeMesh } from 'three';
 import { options } from '../../wasm/ts/arguments.ts';
 import type { DrawnRun } from '../assets/drawn-corners.ts';
-import { SCENE_READERS } from '../assets/given.ts';
 import { joinScene, morphOffset, type ScenePart } from '../assets/join-scene.ts';
-import type { SceneChoices } from '../assets/scene-choices.ts';
+import { SCENE_READERS, type SceneChoices } from '../assets/scene-choices.ts';
 import { multiplyMatrices } from '../assets/transform.ts';
 import { decode } from './decode.ts';
 import { drawnRuns, isDisplaced, isInvisible, unreadable } from './drawn-runs.ts';

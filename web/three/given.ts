@@ -18,7 +18,7 @@ export const camera = is('isCamera', 'Give a camera.');
 /** Of the solver, and of what it makes, the method that is used. */
 export const solver = is('poseSpace', 'Give what load() returns.');
 export const deforming = is('deform', 'Give what hb.irbf(body) returns.');
-export const container = is('appendChild', 'Give an element of the page.');
+export const container = is('append', 'Give an element of the page.');
 
 /** The number of one of `count` things. Allocates nothing. */
 export function numberOf(value: unknown, name: string, count: number): number {

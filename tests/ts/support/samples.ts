@@ -2,13 +2,15 @@
 import { BoxGeometry, Mesh, MeshBasicMaterial, PerspectiveCamera, Raycaster, Vector3 } from 'three';
 import { type BodyData, load } from '../../../wasm/ts/index.ts';
 import { meshDocument, writeGlb } from '../../../web/assets/index.ts';
-import { DeformedGeometry, deformable, meshFromObject } from '../../../web/three/index.ts';
+import { DeformedGeometry, deformable, draggable, meshFromObject, poseDriver } from '../../../web/three/index.ts';
+import { FakeElement, fakeDocument } from './fake-element.ts';
 
 export const hb = await load();
 
 const box = () => new Mesh(new BoxGeometry(2, 1, 1, 4, 2, 2), new MeshBasicMaterial());
 const { mesh } = meshFromObject(box());
 const body: BodyData = await hb.bake(mesh, { centers: 10, resolution: 16, spheres: 10 });
+const glb = meshDocument({ positions: mesh.positions, triangles: mesh.triangles } as never);
 const data = () => ({ dimension: 1, points: [0, 1, 3], values: [2, 0, 1] });
 const skin = () => ({ dimension: 2 as const, positions: [0, 0, 1, 0], weights: [1, 0, 0, 1] });
 const square = { positions: [0, 0, 1, 0, 1, 1, 0, 1], dimension: 2 as const, triangles: [0, 1, 2, 0, 2, 3] };
@@ -17,6 +19,12 @@ const irbf = () => {
   made.setHandles([{ vertex: 0 }, { vertex: 1 }]);
   made.solve();
   return made;
+};
+
+/** In a page that is not there. */
+const dragged = () => {
+  fakeDocument();
+  return draggable(box(), body, { hb, camera: new PerspectiveCamera(), container: new FakeElement() as unknown as HTMLElement });
 };
 
 export const samples: Readonly<Record<string, () => unknown>> = {
@@ -65,6 +73,10 @@ export const samples: Readonly<Record<string, () => unknown>> = {
   Raycaster: () => new Raycaster(new Vector3(0, 0, 5), new Vector3(0, 0, -1)),
   Vector3: () => new Vector3(),
   Deformable: () => deformable(box(), irbf()),
+  Draggable: dragged,
+  HTMLElement: () => new FakeElement(),
+  PoseDriver: () =>
+    poseDriver(hb, { dimensions: [{ name: 'x' }], examples: [{ name: 'a', at: [0], weights: [1] }], meshes: [box()] } as never),
   DeformedGeometry: () => new DeformedGeometry(meshFromObject(box()).parts),
   // Files.
   Document: () => meshDocument({ positions: mesh.positions, triangles: mesh.triangles } as never),
@@ -74,6 +86,8 @@ export const samples: Readonly<Record<string, () => unknown>> = {
 /** Arguments that fit an object's sizes, for calls that need them. */
 export const right: Readonly<Record<string, readonly unknown[]>> = {
   'Irbf.deform': [new Float32Array(mesh.positions.length)],
+  'DeformedGeometry.update': [mesh.positions],
+  attachPoseSpace: [glb, glb.getRoot().listMeshes()[0]],
   'PoseSpace.weights': [[0]],
   'PoseSpace.evaluate': [[0]],
   'Tetrahedra.sample': [hb.tetrahedralize(mesh, { resolution: 4 }).positions],
