@@ -2,6 +2,7 @@ import { LAYOUT } from './abi.generated.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS } from './kernels.ts';
+import { printWarning } from './rbf-report.ts';
 import type { IrbfOptions } from './types.ts';
 
 /** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, would be 1e-6 here. */
@@ -21,7 +22,7 @@ type ResolvedIrbf = Required<IrbfOptions>;
 
 /** The options with their defaults; names that the solver would not see are checked. */
 export function resolve(given: IrbfOptions): ResolvedIrbf {
-  const options: ResolvedIrbf = { ...IRBF_DEFAULTS, ...given };
+  const options: ResolvedIrbf = { ...IRBF_DEFAULTS, onWarning: printWarning, ...given };
   const { kernel, constraints, precision, smoothness, order } = options;
   const radial = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate');
   if (typeof kernel !== 'function' && !radial.includes(kernel)) throw unknown('kernel', kernel, [...radial, 'a function of s']);

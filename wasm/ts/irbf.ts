@@ -3,11 +3,22 @@ import { checkMeshArrays } from './check-mesh.ts';
 import { unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import { checkFractions } from './fractions.ts';
+import { shiftRows, twistWarning, withNearest } from './handle-places.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
-import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
+import type {
+  BodyData,
+  Handle,
+  IrbfOptions,
+  IrbfReport,
+  IrbfWarning,
+  SolveOptions,
+  SolveReport,
+  TypedArray,
+  Vec3,
+} from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
 export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
@@ -36,6 +47,7 @@ export class Irbf {
   readonly #restNormals: number;
   readonly #report: number;
   readonly #hostKernel: number;
+  readonly #warn: (warning: IrbfWarning) => void;
   #irbf: number;
   #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
@@ -45,7 +57,15 @@ export class Irbf {
   #hasRestNormals = false;
 
   /** @internal Use `Handlebody.irbf`. Takes the solver's pointer, and the number of a caller's kernel (0 for none). */
-  constructor(heap: Heap, body: BodyData, vertexCount: number, irbf: number, hostKernel: number) {
+  constructor(
+    heap: Heap,
+    body: BodyData,
+    vertexCount: number,
+    irbf: number,
+    hostKernel: number,
+    warn: (warning: IrbfWarning) => void,
+  ) {
+    this.#warn = warn;
     this.#heap = heap;
     this.#body = body;
     this.#irbf = irbf;
@@ -107,7 +127,11 @@ export class Irbf {
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
-      runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
+      try {
+        runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, handles.length)));
+      } catch (error) {
+        throw withNearest(error, this.#body, points);
+      }
     });
     this.#handles = handles.length;
     this.#kinds = kinds;
@@ -118,6 +142,8 @@ export class Irbf {
       )
       .slice();
     if (origin) shiftRows(this.#targets, origin, { stride: TARGET_SIZE, sign: 1 });
+    const warning = twistWarning(points, kinds);
+    if (warning) this.#warn(warning);
   }
 
   /**
@@ -258,7 +284,7 @@ export class Irbf {
       return heap.u32(out, 1)[0] ?? 0;
     });
     heap.kernels.share(this.#hostKernel);
-    return new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel);
+    return new Irbf(heap, this.#body, this.vertexCount, shared, this.#hostKernel, this.#warn);
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -315,17 +341,11 @@ export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf 
         return heap.u32(out, 1)[0] ?? 0;
       }),
     );
-    return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel);
+    return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel, options.onWarning);
   } catch (error) {
     heap.kernels.remove(hostKernel);
     throw error;
   }
-}
-
-/** Between the model's units and those of a body that has an origin of its own: the first three numbers of each row. */
-function shiftRows(rows: Float64Array, origin: Vec3, { stride, sign }: { readonly stride: number; readonly sign: 1 | -1 }): void {
-  for (let row = 0; row < rows.length; row += stride)
-    for (let axis = 0; axis < 3; axis++) rows[row + axis] = (rows[row + axis] as number) + sign * (origin[axis] as number);
 }
 
 /** A body as the ABI's hb_body. */
