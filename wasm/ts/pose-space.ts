@@ -24,14 +24,21 @@ export interface PoseExample {
   readonly shape: ArrayLike<number>;
 }
 
+/** A dimension of a pose space. */
+export interface PoseDimension {
+  readonly name: string;
+  /** What counts as 1 in distances, finite and above 0 (default 1): they are those of coordinate / scale. */
+  readonly scale?: number;
+}
+
 export interface PoseSpaceOptions {
-  /** Names of the dimensions, 1 to 64. */
-  readonly dimensions: readonly string[];
+  /** The dimensions, 1 to 64: a name each, or a name and a scale. */
+  readonly dimensions: readonly (string | PoseDimension)[];
   readonly examples: readonly PoseExample[];
   readonly method?: PoseSpaceMethod;
   /** `'auto'`: multiquadric for cardinal, inverse-multiquadric for normalized. The normalized method takes no kernel that is 0 at r = 0. */
   readonly kernel?: PoseSpaceKernel | 'auto';
-  /** In units of the dimensions. `'auto'`: for each example a fixed part of the distance to its nearest neighbor. */
+  /** In units of the dimensions' scales. `'auto'`: for each example a fixed part of the distance to its nearest neighbor. */
   readonly width?: number | 'auto';
   /** Polynomial tail. 1 makes weights reproduce linear functions, Σ wₖ(x) xₖ = x. `'auto'`: the lowest that the kernel allows. */
   readonly degree?: -1 | 0 | 1 | 'auto';
@@ -55,12 +62,15 @@ const KERNELS: Record<PoseSpaceKernel, number> = {
 };
 const NEEDS_LINEAR_TAIL: readonly PoseSpaceKernel[] = ['cubic', 'thin-plate'];
 
-/** Places closer than this part of their bounding box's diagonal count as one: the solver's own rule. */
+/** Places closer than this part of their extent on every axis count as one: the solver's own rule. */
 const COINCIDENT = 1e-9;
 
 /**
  * Examples in a pose space (2014 course, §2.2 and §3.4): at any point every example has a weight, 1 at its own place and 0 at the
  * others', smooth in between and summing to 1 everywhere; the shape there is the weighted sum of the examples' shapes.
+ *
+ * Distances are Euclidean, of coordinate / scale, but a dimension in which the examples span less than a thousandth of the widest counts as
+ * spanning a thousandth: dimensions in units that have nothing in common are kept apart without scales too.
  *
  * ```ts
  * const space = hb.poseSpace({
@@ -89,17 +99,20 @@ export class PoseSpace {
   readonly #weights: Float64Array;
   /** shapeLength × examples: all that one number of the result needs is contiguous. */
   readonly #shapes: Float64Array;
+  readonly #scales: readonly number[];
   #space: number;
 
   /** @internal Use `Handlebody.poseSpace`. */
   constructor(heap: Heap, options: PoseSpaceOptions) {
     const { method, kernel, width, degree } = resolveOptions(options);
-    const { dimensions, examples } = options;
+    const { examples } = options;
+    const dimensions = options.dimensions.map((one) => (typeof one === 'string' ? one : one.name));
+    this.#scales = options.dimensions.map(scaleOf);
     checkExamples(dimensions, examples);
     const { kept, merged } = mergeDuplicates(examples, dimensions.length);
     const count = kept.length;
 
-    this.dimensions = [...dimensions];
+    this.dimensions = dimensions;
     this.names = kept.map((index) => exampleAt(examples, index).name);
     this.merged = merged;
     this.shapeLength = examples[0]?.shape.length ?? 0;
@@ -108,7 +121,9 @@ export class PoseSpace {
     const places = new Float64Array(count * dimensions.length);
     kept.forEach((index, k) => {
       const { at, shape } = exampleAt(examples, index);
-      places.set(Array.from(at), k * dimensions.length);
+      this.#scales.forEach((scale, axis) => {
+        places[k * dimensions.length + axis] = (at[axis] ?? 0) / scale;
+      });
       for (let i = 0; i < shape.length; i++) this.#shapes[i * count + k] = shape[i] ?? 0;
     });
 
@@ -194,10 +209,21 @@ export class PoseSpace {
         remedy: 'Give one coordinate a dimension.',
       });
     }
-    this.#heap.f64(this.#query, at.length).set(at);
+    const query = this.#heap.f64(this.#query, at.length);
+    for (let axis = 0; axis < query.length; axis++) query[axis] = (at[axis] as number) / (this.#scales[axis] as number);
     this.#heap.check((e) => e.hb_pose_space_weights(space, this.#query, this.#weightsAt));
     this.#weights.set(this.#heap.f64(this.#weightsAt, this.#weights.length));
   }
+}
+
+function scaleOf(dimension: string | PoseDimension): number {
+  const { name, scale = 1 } = typeof dimension === 'string' ? { name: dimension } : dimension;
+  if (scale > 0 && Number.isFinite(scale)) return scale;
+  throw new HandlebodyError('invalid-option', {
+    message: `The scale of the dimension "${name}" is ${scale}, not a positive finite number.`,
+    remedy: 'Give what counts as 1 in that dimension, or leave it out.',
+    culprit: { kind: 'option', index: -1 },
+  });
 }
 
 /** The options as the solver's numbers. */
@@ -281,11 +307,11 @@ function firstNotFinite(row: ArrayLike<number>): number {
 
 /** Which examples to keep: of several at one place the first, if their shapes are equal; it is an error otherwise. */
 function mergeDuplicates(examples: readonly PoseExample[], dimension: number) {
-  const tolerance = COINCIDENT * diagonal(examples, dimension);
+  const tolerances = placeTolerances(examples, dimension);
   const kept: number[] = [];
   const merged: { name: string; into: string }[] = [];
   examples.forEach((example, index) => {
-    const twin = kept.find((other) => distance(example.at, exampleAt(examples, other).at) <= tolerance);
+    const twin = kept.find((other) => atOnePlace(example.at, exampleAt(examples, other).at, tolerances));
     if (twin === undefined) {
       kept.push(index);
       return;
@@ -303,19 +329,18 @@ function mergeDuplicates(examples: readonly PoseExample[], dimension: number) {
   return { kept, merged };
 }
 
-function diagonal(examples: readonly PoseExample[], dimension: number): number {
-  const extents = Array.from({ length: dimension }, (_, axis) => {
+function placeTolerances(examples: readonly PoseExample[], dimension: number): number[] {
+  return Array.from({ length: dimension }, (_, axis) => {
     const coordinates = examples.map(({ at }) => at[axis] ?? 0);
     // No spread into Math.max: it overflows the stack for long lists.
-    return coordinates.reduce((a, b) => Math.max(a, b)) - coordinates.reduce((a, b) => Math.min(a, b));
+    const extent = coordinates.reduce((a, b) => Math.max(a, b)) - coordinates.reduce((a, b) => Math.min(a, b));
+    return COINCIDENT * Math.sqrt(dimension) * extent;
   });
-  return Math.hypot(...extents);
 }
 
-function distance(a: ArrayLike<number>, b: ArrayLike<number>): number {
-  let sum = 0;
-  for (let i = 0; i < a.length; i++) sum = Math.hypot(sum, (a[i] ?? 0) - (b[i] ?? 0));
-  return sum;
+function atOnePlace(a: ArrayLike<number>, b: ArrayLike<number>, tolerances: readonly number[]): boolean {
+  const apart = tolerances.map((tolerance, axis) => (a[axis] === b[axis] ? 0 : ((a[axis] ?? 0) - (b[axis] ?? 0)) / tolerance));
+  return Math.hypot(...apart) <= 1;
 }
 
 function equal(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
