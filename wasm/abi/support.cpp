@@ -1,7 +1,6 @@
 #include "abi/support.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 namespace {
@@ -34,13 +33,5 @@ uint32_t hb_abi_version(void) {
 
 const hb_error* hb_last_error(void) {
   return &last_error;
-}
-
-void* hb_alloc(uint32_t bytes) {
-  return std::malloc(bytes);
-}
-
-void hb_release(void* memory) {
-  std::free(memory);
 }
 }
