@@ -52,8 +52,6 @@ interface CreateArguments {
 /** Queries that are passed to the solver at a time: its scratch memory stays bounded, however many are asked. */
 const BATCH = 4096;
 
-/** Queries are checked as they are copied. Made once, so that a call allocates nothing. */
-const ANY = { code: 'query-not-finite', kind: 'query', finite: false } as const;
 const QUERY = { code: 'query-not-finite', kind: 'query' } as const;
 
 /**
@@ -77,6 +75,8 @@ export abstract class Interpolant {
 
   /** @internal */
   protected readonly heap: Heap;
+  /** How queries are read: whether they are finite is looked at as they are copied. Made once, so that a call allocates nothing. */
+  readonly #queries: { readonly code: 'query-not-finite'; readonly kind: 'query'; readonly finite: false; readonly width: number };
   /** @internal Its block is scratch memory. */
   protected readonly owned: Owned;
   #scratchBytes = 0;
@@ -93,6 +93,7 @@ export abstract class Interpolant {
     this.heap = heap;
     this.size = count;
     this.dimension = data.dimension;
+    this.#queries = { ...QUERY, finite: false, width: data.dimension };
     this.outputs = outputs;
     const made = heap.scope((scratch) => {
       const points = scratch.putF64(data.points);
@@ -149,7 +150,7 @@ export abstract class Interpolant {
 
   #ask<T extends TypedArray>(what: 'evaluate' | 'gradient' | 'weights', given: Numbers, width: number, room: T | undefined): T {
     const { handle, heap, dimension } = this;
-    const queries = numbers(given, 'queries', ANY);
+    const queries = numbers(given, 'queries', this.#queries);
     const count = queries.length / dimension;
     if (!Number.isInteger(count)) throw notRows('queries', queries.length, dimension);
     if (room !== undefined) checkRoom(room, 'out', count * width);
