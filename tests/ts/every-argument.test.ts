@@ -1,5 +1,5 @@
 /**
- * Every function, constructor and method that the package exports is called with things that are wrong for the documented type of each of its
+ * Every function, constructor and method that the package exports, but for figures and elements, is called with things that are wrong for the documented type of each of its
  * arguments and options, read from the declarations: so a new export is tested without being listed. Each call must end in a
  * HandlebodyError whose message has the argument's or the option's name.
  */
@@ -12,7 +12,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { right, samples } from './support/samples.ts';
 import { type Kind, WRONG } from './support/wrong-values.ts';
 
-/** Entries that only a browser can import: their elements' attributes are text, and tests/web tries those. */
+/** Entries that only a browser can import, whose attributes are text that tests/web tries; and figures, which are not tried yet. */
 const ELEMENTS = /element|anywidget|standalone|bake-worker|figure/;
 
 /** What cannot be tried so, by the names of calls, or of classes, and why: at most ten. */

@@ -1,12 +1,11 @@
 /** What is forgotten, or disposed of, leaves nothing in the solver's memory. */
-import { setFlagsFromString } from 'node:v8';
-import { runInNewContext } from 'node:vm';
 import { BoxGeometry, Mesh, PerspectiveCamera } from 'three';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { Handlebody } from '../../wasm/ts/handlebody.ts';
 import { HandlebodyRuntime } from '../../wasm/ts/handlebody-runtime.ts';
 import { type BodyData, load } from '../../wasm/ts/index.ts';
 import { deformable, draggable, meshFromObject, poseDriver } from '../../web/three/index.ts';
+import { collect } from './support/collect.ts';
 import { FakeElement, fakeDocument } from './support/fake-element.ts';
 import { boxMesh } from './support/shapes.ts';
 
@@ -88,19 +87,6 @@ function asked<T extends { evaluate(queries: number[]): unknown }>(made: T): T {
 function refused(work: () => unknown): object {
   expect(work).toThrow();
   return {};
-}
-
-const collectGarbage = (() => {
-  setFlagsFromString('--expose-gc');
-  return runInNewContext('gc') as () => void;
-})();
-
-/** A collection, and turns of the event loop in which finalizers run. */
-async function collect(): Promise<void> {
-  for (let i = 0; i < 3; i++) {
-    collectGarbage();
-    await new Promise((resolve) => setImmediate(resolve));
-  }
 }
 
 /** A solver, and how many blocks and objects are out that it handed out. */

@@ -1,23 +1,10 @@
 /** What an object holds of the solver's memory, where things go wrong. */
-import { setFlagsFromString } from 'node:v8';
-import { runInNewContext } from 'node:vm';
 import { describe, expect, it, onTestFinished } from 'vitest';
 import type { RuntimeExports } from '../../wasm/ts/abi.generated.ts';
 import { Heap } from '../../wasm/ts/heap.ts';
 import { load } from '../../wasm/ts/index.ts';
 import { load as loadRuntime } from '../../wasm/ts/runtime.ts';
-
-const collectGarbage = (() => {
-  setFlagsFromString('--expose-gc');
-  return runInNewContext('gc') as () => void;
-})();
-
-async function collect(): Promise<void> {
-  for (let i = 0; i < 3; i++) {
-    collectGarbage();
-    await new Promise((resolve) => setImmediate(resolve));
-  }
-}
+import { collect } from './support/collect.ts';
 
 /** A heap of so many blocks, and what is done to it. */
 function fakeHeap({ blocks = 100, trap = false } = {}): { heap: Heap; log: string[] } {
