@@ -273,10 +273,9 @@ describe('irbf', () => {
       code: 'handle-out-of-range',
       culprit: { kind: 'handle', index: 1 },
     });
-    expect(await failure(() => irbf.setHandles([{ at: [5, 40, 0] }]))).toMatchObject({
-      code: 'handle-outside',
-      culprit: { kind: 'handle', index: 0 },
-    });
+    const outside = await failure(() => irbf.setHandles([{ at: [5, 40, 0] }]));
+    expect(outside).toMatchObject({ code: 'handle-outside', culprit: { kind: 'handle', index: 0 } });
+    expect(outside.message).toMatch(/^Handle 0 at \(5, 40, 0\) lies outside the model, which spans \(.*\) to \(.*\)\.$/);
     expect(await failure(() => irbf.setHandles([{ at: [5, Number.NaN, 0] }]))).toMatchObject({ code: 'handle-not-finite' });
     expect(irbf.handleCount).toBe(8);
     for (const bad of [Number.NaN, Number.POSITIVE_INFINITY, 1e300]) {

@@ -2,6 +2,7 @@ import { LAYOUT } from './abi.generated.ts';
 import { callback, finite, named, options, positive, type Read, type Reader, type Readers, whole } from './arguments.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS, type KernelFunction } from './kernels.ts';
+import { printWarning } from './rbf-report.ts';
 import type { IrbfKernel, IrbfOptions } from './types.ts';
 
 /** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, would be 1e-6 here. */
@@ -29,13 +30,14 @@ const READERS = {
   support: positive,
   order: whole(2, 8),
   precision: named(['fixed', 'float']),
+  onWarning: callback,
 } satisfies Readers<IrbfOptions>;
 
 type ResolvedIrbf = Read<typeof READERS>;
 
 /** The options with their defaults; what the solver would not see is checked. */
 export function resolve(given: IrbfOptions): ResolvedIrbf {
-  return options(given, READERS, IRBF_DEFAULTS);
+  return options(given, READERS, { ...IRBF_DEFAULTS, onWarning: printWarning });
 }
 
 /** Puts the struct into scratch memory and returns its address. */

@@ -18,12 +18,23 @@ import {
 } from './arguments.ts';
 import { bound } from './bound.ts';
 import { HandlebodyError } from './errors.ts';
+import { shiftRows, twistWarning, withNearest } from './handle-places.ts';
 import type { Heap } from './heap.ts';
 import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { readBody, writeBody } from './irbf-body.ts';
 import { resolve, writeOptions } from './irbf-options.ts';
 import type { Owned } from './owned.ts';
-import type { BodyData, Handle, IrbfOptions, IrbfReport, SolveOptions, SolveReport, TypedArray, Vec3 } from './types.ts';
+import type {
+  BodyData,
+  Handle,
+  IrbfOptions,
+  IrbfReport,
+  IrbfWarning,
+  SolveOptions,
+  SolveReport,
+  TypedArray,
+  Vec3,
+} from './types.ts';
 
 /** For one solve from rest. A frame of a drag starts from the last solution and wants far fewer, see `solve`. */
 export const SOLVE_DEFAULTS = { maxIterations: 100, tolerance: 1e-5, accelerate: true } as const;
@@ -52,6 +63,7 @@ export class Irbf {
   readonly #restNormals: number;
   readonly #report: number;
   readonly #owned: Owned;
+  readonly #warn: (warning: IrbfWarning) => void;
   #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
   #targets = new Float64Array();
@@ -60,7 +72,15 @@ export class Irbf {
   #hasRestNormals = false;
 
   /** @internal Use `Handlebody.irbf`. Takes the solver's pointer, and the number of a caller's kernel (0 for none). */
-  constructor(heap: Heap, body: BodyData, vertexCount: number, irbf: number, hostKernel: number) {
+  constructor(
+    heap: Heap,
+    body: BodyData,
+    vertexCount: number,
+    irbf: number,
+    hostKernel: number,
+    warn: (warning: IrbfWarning) => void,
+  ) {
+    this.#warn = warn;
     this.#heap = heap;
     this.#body = body;
     // Allocated once, so that a frame allocates nothing.
@@ -109,7 +129,11 @@ export class Irbf {
     });
     heap.scope((scratch) => {
       const [at, kind] = [scratch.putF64(points), scratch.putU32(kinds)];
-      runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, held.length)));
+      try {
+        runKernel(heap, () => heap.check((e) => e.hb_irbf_set_handles(irbf, at, kind, held.length)));
+      } catch (error) {
+        throw withNearest(error, this.#body, points);
+      }
     });
     this.#handles = held.length;
     this.#kinds = kinds;
@@ -120,6 +144,8 @@ export class Irbf {
       )
       .slice();
     if (origin) shiftRows(this.#targets, origin, { stride: TARGET_SIZE, sign: 1 });
+    const warning = twistWarning(points, kinds);
+    if (warning) this.#warn(warning);
   }
 
   /**
@@ -262,7 +288,7 @@ export class Irbf {
     });
     const { kernel } = this.#owned;
     heap.kernels.share(kernel);
-    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, kernel));
+    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, kernel, this.#warn));
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -310,13 +336,7 @@ export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf 
     heap.kernels.remove(hostKernel);
     throw error;
   }
-  return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel);
-}
-
-/** Between the model's units and those of a body that has an origin of its own: the first three numbers of each row. */
-function shiftRows(rows: Float64Array, origin: Vec3, { stride, sign }: { readonly stride: number; readonly sign: 1 | -1 }): void {
-  for (let row = 0; row < rows.length; row += stride)
-    for (let axis = 0; axis < 3; axis++) rows[row + axis] = (rows[row + axis] as number) + sign * (origin[axis] as number);
+  return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel, options.onWarning);
 }
 
 /** Runs what calls the kernel. Where that is the caller's and failed, its own error is thrown, which says more. */

@@ -174,6 +174,16 @@ export interface IrbfOptions {
   readonly order?: number;
   /** Arithmetic of `deform`: 16-bit fixed point, to some 1e-5 of the diagonal, or float, the reference, which takes twice as long. */
   readonly precision?: 'fixed' | 'float';
+  /** Called by `setHandles` where handles leave something free. By default it goes to the console. */
+  readonly onWarning?: (warning: IrbfWarning) => void;
+}
+
+/** What a deformation does all the same, and its user should know. */
+export interface IrbfWarning {
+  /** Three or more handles, none of which turns, stand on one line: turning about it is free. */
+  readonly code: 'twist-free';
+  readonly message: string;
+  readonly remedy: string;
 }
 
 export type IrbfKernel = Exclude<KernelName, 'clamped-plate'>;

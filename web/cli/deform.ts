@@ -47,7 +47,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   const hb = await load({ signal });
   const irbf = fromHandles(handlesName, () => {
     // Once, not every frame: the exact product.
-    const made = hb.irbf(body, { ...options, precision: 'float' });
+    const made = hb.irbf(body, { ...options, precision: 'float', onWarning: (warning) => report.warn({ ...warning }) });
     made.setHandles(handles);
     return made;
   });

@@ -107,7 +107,10 @@ Result<Done> HandleConstraints::read_targets(const double* targets, const Normal
     const Eigen::Map<const Eigen::Matrix<double, target_size, 1>> target(targets + k * target_size);
     const bool rotates = kinds_[k] == HandleKind::rotation;
     const Eigen::Quaterniond rotation(target(6), target(3), target(4), target(5));
-    const bool finite = rotates ? target.allFinite() && rotation.norm() > 1e-9 : target.head<3>().allFinite();
+    const bool finite = rotates ? target.allFinite() : target.head<3>().allFinite();
+    if (rotates && finite && !(rotation.norm() > 1e-9))
+      return Error(HB_ERROR_TARGET_NOT_FINITE, {"The rotation of handle ", k, " is (0, 0, 0, 0), which has no direction."},
+                   {"Give a unit quaternion: (0, 0, 0, 1) does not turn."}, HB_CULPRIT_HANDLE, k);
     // A target far beyond any screen is a mistake too, and its squares would overflow below.
     if (!finite || (target.head<3>() - normalization.center).norm() > 1e6 * normalization.diagonal) {
       return Error(HB_ERROR_TARGET_NOT_FINITE,

@@ -1,0 +1,67 @@
+/** What handles' places leave to be said: the nearest place inside, and turns that no handle holds. */
+import { HandlebodyError } from './errors.ts';
+import type { BodyData, IrbfWarning, Vec3 } from './types.ts';
+
+const AXES = [0, 1, 2] as const;
+/** Handles closer to a line than this part of its length are on it. */
+const ON_LINE = 1e-6;
+
+/** To the error of a handle that lies outside: where the model is, and the nearest place inside. `places` are relative to the body's origin. */
+export function withNearest(error: unknown, body: BodyData, places: Float64Array): unknown {
+  if (!(error instanceof HandlebodyError) || error.code !== 'handle-outside' || !error.culprit) return error;
+  const { index } = error.culprit;
+  const { mesh, normalization, grid, voxels } = body;
+  const { center, diagonal } = normalization;
+  const step = 10 ** (Math.floor(Math.log10(grid.spacing * diagonal)) - 1);
+  const words = (x: readonly number[]) =>
+    `(${x.map((number, axis) => Number((Math.round((number + (mesh.origin?.[axis] ?? 0)) / step) * step).toPrecision(12))).join(', ')})`;
+  const at = AXES.map((axis) => places[3 * index + axis] as number);
+  let nearest: number[] = at;
+  let least = Number.POSITIVE_INFINITY;
+  for (const voxel of voxels) {
+    const [nx, ny] = grid.dimensions;
+    const steps = [voxel % nx, Math.floor(voxel / nx) % ny, Math.floor(voxel / (nx * ny))];
+    const place = AXES.map((axis) => center[axis] + diagonal * (grid.origin[axis] + grid.spacing * (steps[axis] as number)));
+    const far = Math.hypot(...AXES.map((axis) => (place[axis] as number) - (at[axis] as number)));
+    if (far < least) [least, nearest] = [far, place];
+  }
+  const corner = (pick: (...numbers: number[]) => number, start: number) => {
+    const reach = [start, start, start];
+    for (let i = 0; i < mesh.positions.length; i++) reach[i % 3] = pick(reach[i % 3] as number, mesh.positions[i] as number);
+    return words(reach);
+  };
+  const [low, high] = [corner(Math.min, Number.POSITIVE_INFINITY), corner(Math.max, Number.NEGATIVE_INFINITY)];
+  return new HandlebodyError(error.code, {
+    message: `Handle ${index} at ${words(at)} lies outside the model, which spans ${low} to ${high}.`,
+    remedy: `Put it at ${words(nearest)}, the nearest point inside, or on a vertex.`,
+    culprit: error.culprit,
+    cause: error,
+  });
+}
+
+/** What three or more handles leave free that neither turn nor stand off one line. */
+export function twistWarning(places: Float64Array, kinds: Uint32Array): IrbfWarning | undefined {
+  if (kinds.length < 3 || kinds.some((kind) => kind !== 0)) return undefined;
+  const offset = (k: number) => AXES.map((axis) => (places[3 * k + axis] as number) - (places[axis] as number));
+  const offsets = Array.from(kinds, (_, k) => offset(k));
+  const length = ([a = 0, b = 0, c = 0]: number[]) => Math.hypot(a, b, c);
+  const [x = 0, y = 0, z = 0] = offsets.sort((a, b) => length(b) - length(a))[0] ?? [];
+  const squared = x * x + y * y + z * z;
+  const off = ([a = 0, b = 0, c = 0]: number[]) => length([y * c - z * b, z * a - x * c, x * b - y * a]);
+  if (offsets.some((one) => off(one) > ON_LINE * squared)) return undefined;
+  return {
+    code: 'twist-free',
+    message: `The ${kinds.length} handles stand on one line, so nothing holds the model from turning about it.`,
+    remedy: "Add a handle off the line, or give one the kind 'rotation'.",
+  };
+}
+
+/** Between the model's units and those of a body that has an origin of its own: the first three numbers of each row. */
+export function shiftRows(
+  rows: Float64Array,
+  origin: Vec3,
+  { stride, sign }: { readonly stride: number; readonly sign: 1 | -1 },
+): void {
+  for (let row = 0; row < rows.length; row += stride)
+    for (let axis = 0; axis < 3; axis++) rows[row + axis] = (rows[row + axis] as number) + sign * (origin[axis] as number);
+}
