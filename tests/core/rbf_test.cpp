@@ -279,14 +279,13 @@ TEST_CASE(
   CHECK(!fit(places, plain({KernelKind::gaussian, 0.4}, -1, true))->leave_one_out());
 }
 
-TEST_CASE("degenerate points and bad options are named") {
+TEST_CASE("points on a line will do; twins and bad options are named") {
   const Kernel multiquadric{KernelKind::multiquadric, 1}, plate{KernelKind::thin_plate, 1};
   Matrix line(4, 2);
   line << 0, 0, 1, 1, 2, 2, 3, 3;
-  CHECK(code_of(line, plain(plate, 1)) == HB_ERROR_POINTS_DEGENERATE);
-  CHECK(fit(line, plain(plate, 1)).error().message.find("on one line") != std::string::npos);
+  CHECK(code_of(line, plain(plate, 1)) == HB_OK);
   CHECK(code_of(line, plain(multiquadric, 0)) == HB_OK);
-  CHECK(code_of(line.topRows(2), plain(plate, 1)) == HB_ERROR_POINTS_TOO_FEW);
+  CHECK(code_of(line.topRows(2), plain(plate, 1)) == HB_OK);
   CHECK(code_of(Matrix(0, 2), plain(multiquadric, 0)) == HB_ERROR_POINTS_TOO_FEW);
 
   Matrix twins(3, 2);

@@ -269,12 +269,9 @@ TEST_CASE("bad weights and too few points are named") {
   CHECK(code({1, 1, 1}, 5, 4) == HB_ERROR_INVALID_SHAPE);
   CHECK(code({1, 1, 1}, 0, 2) == HB_ERROR_POINTS_TOO_FEW);
   CHECK(code({1, 1, 0}, 1, 2) == HB_OK);
-  CHECK(code({1, 0, 0}, 2, 2) == HB_ERROR_POINTS_TOO_FEW);
+  CHECK(code({1, 0, 0}, 2, 2) == HB_OK);
   Matrix line(4, 2);
   line << 0, 0, 1, 1, 2, 2, 3, 3;
-  const auto flat = tension_spline(line, Matrix::Ones(4, 1), {1, 0, 0});
-  REQUIRE(!flat);
-  CHECK(flat.error().code == HB_ERROR_POINTS_DEGENERATE);
-  CHECK(flat.error().remedy.find("positive beta") != std::string::npos);
+  CHECK(tension_spline(line, Matrix::Ones(4, 1), {1, 0, 0}));
   CHECK(tension_spline(line, Matrix::Ones(4, 1), {1, 1e-3, 0}));
 }

@@ -267,6 +267,25 @@ describe('HANDLEBODY_pose_space', () => {
     expect(back.map(({ mesh, ...space }) => [mesh.getName(), space])).toEqual([['face 1', POSES]]);
   });
 
+  it('keeps the scales of dimensions as they are', async () => {
+    const document = makeScene();
+    const [mesh] = document.getRoot().listMeshes();
+    const dimensions = POSES.dimensions.map((dimension, i) => (i === 0 ? dimension : { ...dimension, scale: 2.5 }));
+    attachPoseSpace(document, mesh as NonNullable<typeof mesh>, { ...POSES, dimensions });
+    const bytes = await writeGlb(document);
+    expect(readPoseSpaces(await readGlb(bytes))[0]?.dimensions).toEqual(dimensions);
+    expect(readPoseSpaces(await readGlb(await writeGlb(await readGlb(bytes))))[0]?.dimensions).toEqual(dimensions);
+  });
+
+  it.each([0, -2, '1', null])('refuses the scale %j by its place in the JSON', (scale) => {
+    const document = makeScene();
+    const [mesh] = document.getRoot().listMeshes();
+    const dimensions = POSES.dimensions.map((dimension, i) => (i === 0 ? dimension : { ...dimension, scale: scale as number }));
+    expect(() => attachPoseSpace(document, mesh as NonNullable<typeof mesh>, { ...POSES, dimensions })).toThrow(
+      `dimensions[1].scale is ${JSON.stringify(scale)}.`,
+    );
+  });
+
   it('has examples that are morph targets of their own, and stays as it is from file to file', async () => {
     const document = makeScene();
     const [mesh] = document.getRoot().listMeshes();

@@ -151,18 +151,6 @@ describe('bad input is named', () => {
     ['a negative epsilon', { epsilon: -1 }, 'invalid-option', /epsilon" is -1/],
     ['a width of 0', { weight: 'gaussian', width: 0 }, 'invalid-option', /width" is 0/],
     ['an infinite width', { weight: 'gaussian', width: Number.POSITIVE_INFINITY }, 'invalid-option', /width/],
-    ['too few points', { points: [0, 0, 1, 1], values: [1, 2] }, 'points-too-few', /2 points do not determine a linear function/],
-    ['points on one line', { points: [0, 0, 1, 1, 2, 2], values: [1, 2, 3] }, 'points-degenerate', /on one line/],
-    [
-      'points on a circle',
-      {
-        points: Array.from({ length: 16 }, (_, i) => (i % 2 ? Math.sin(i - 1) : Math.cos(i))),
-        values: Array(8).fill(1),
-        degree: 2,
-      },
-      'points-degenerate',
-      /one conic/,
-    ],
     ['two values at one place', { points: [0, 0, 1, 0, 0, 1, 1, 0], values: [1, 2, 3, 4] }, 'point-duplicate', /Point 3/],
   ];
   test.each(cases)('%s', (_, options, code, message) => {

@@ -207,13 +207,6 @@ describe('errors name the culprit and a remedy', () => {
       3,
       /"at ease".*"calm"/,
     ],
-    [
-      'places on one line',
-      { examples: examples.slice(0, 4).map((e, k) => ({ ...e, at: [k, 2 * k] })), kernel: 'thin-plate' },
-      'examples-degenerate',
-      undefined,
-      /on one line/,
-    ],
     ['an unknown kernel', { kernel: 'toString' as 'linear' }, 'invalid-option', undefined, /"toString"/],
     ['an unknown method', { method: 'magic' as 'cardinal' }, 'invalid-option', undefined, /"magic"/],
     ['a width of 0', { width: 0 }, 'invalid-option', undefined, /"width" is 0/],

@@ -11,22 +11,9 @@ const names = Object.keys(KERNELS) as KernelName[];
 describe('bad input', () => {
   const points = [0, 0, 1, 0, 0, 1];
   const values = [1, 2, 3];
-  const line = [0, 0, 1, 1, 2, 2, 3, 3];
 
   test.each([
     ['no points', { points: [], values: [] }, 'points-too-few', undefined],
-    ['one point under a linear tail', { points: [0, 0], values: [1] }, 'points-too-few', undefined],
-    ['points on a line under a linear tail', { points: line, values: [1, 2, 3, 4] }, 'points-degenerate', undefined],
-    [
-      'a circle under a quadratic tail',
-      {
-        points: Array.from({ length: 16 }, (_, i) => (i % 2 ? Math.sin(i >> 1) : Math.cos(i >> 1))),
-        values: Array(8).fill(0),
-        degree: 2,
-      },
-      'points-degenerate',
-      undefined,
-    ],
     [
       'two values at one point',
       { points: [...points, 1, 0], values: [...values, 5] },

@@ -4,18 +4,21 @@ import { errorOf, expectClose, random, rotate, rotation } from './support/scatte
 
 const hb = await load();
 const seed = 20140728;
-const names = Object.keys(KERNELS) as KernelName[];
+type Name = KernelName | 'a function';
+const names: Name[] = [...(Object.keys(KERNELS) as KernelName[]), 'a function'];
+/** What is known of a kernel; the caller's is the Gaussian. */
+const known = (kernel: Name) => KERNELS[kernel === 'a function' ? 'gaussian' : kernel];
 const quiet = () => {};
 
 /** Options under which a kernel interpolates points in [−1, 1]^dimension well: about `count` of them. */
-function comfortable(kernel: KernelName, dimension: number): Partial<RbfOptions> {
+function comfortable(kernel: Name, dimension: number): Partial<RbfOptions> {
   const order = Math.floor(dimension / 2) + 1;
-  const width = kernel === 'clamped-plate' ? 6 : KERNELS[kernel].compact && kernel !== 'compact-inverse-multiquadric' ? 1.5 : 0.35;
-  return { kernel, width, order, onWarning: quiet };
+  const width = kernel === 'clamped-plate' ? 6 : known(kernel).compact && kernel !== 'compact-inverse-multiquadric' ? 1.5 : 0.35;
+  return { kernel: kernel === 'a function' ? (s) => Math.exp(-s * s) : kernel, width, order, onWarning: quiet };
 }
 
 function made(
-  kernel: KernelName,
+  kernel: Name,
   dimension: number,
   points: ArrayLike<number>,
   values: ArrayLike<number>,
@@ -86,7 +89,7 @@ describe.each(names)('%s', (kernel) => {
     const points = next.numbers(12 * 2);
     const values = next.numbers(12);
     const queries = next.numbers(5 * 2);
-    const { hasWidth } = KERNELS[kernel];
+    const { hasWidth } = known(kernel);
     const exponent = { linear: 1, cubic: 3, quintic: 5, 'thin-plate': 2, polyharmonic: 2 }[kernel as string] ?? 0;
     const { width } = comfortable(kernel, 2) as { width: number };
     for (const smoothing of [0, 0.03])
@@ -113,7 +116,7 @@ describe.each(names)('%s', (kernel) => {
     const next = random(seed + 3);
     const points = next.numbers(20 * 2);
     const queries = next.numbers(6 * 2);
-    const lowest = Math.max(0, KERNELS[kernel].minimumDegree ?? (kernel === 'polyharmonic' ? 1 : 0));
+    const lowest = Math.max(0, known(kernel).minimumDegree ?? (kernel === 'polyharmonic' ? 1 : 0));
     const polynomials = [
       () => 3,
       (x: number, y: number) => 3 - 2 * x + y,
@@ -135,17 +138,54 @@ describe.each(names)('%s', (kernel) => {
   });
 });
 
-test(`normalized kernels are a partition of unity, and constants far away (seed ${seed})`, () => {
+/** Those that can be normalized: not zero at their own place. */
+const normalizable = names.filter((kernel) => kernel === 'a function' || (known(kernel).hasWidth && kernel !== 'clamped-plate'));
+
+test.each(normalizable)(`%s, normalized, is a partition of unity everywhere, in 1 to 4 dimensions (seed ${seed})`, (kernel) => {
   const next = random(seed + 4);
-  const points = next.numbers(12 * 2);
-  for (const kernel of ['gaussian', 'inverse-multiquadric', 'inverse-quadratic'] as const) {
-    using rbf = made(kernel, 2, points, next.numbers(12), { normalized: true });
-    for (const far of [1, 10, 1e4]) {
-      const weights = rbf.weights(next.numbers(2).map((x) => x * far));
-      expect(weights.reduce((a, b) => a + b)).toBeCloseTo(1, 9);
+  for (const dimension of [1, 2, 3, 4])
+    for (const width of [0.35, 1e-3]) {
+      const points = next.numbers(12 * dimension);
+      using rbf = made(kernel, dimension, points, Array(12).fill(5), { normalized: true, width });
+      for (const far of [1, 10, 1e4, 1e200]) {
+        const query = next.numbers(dimension).map((x) => x * far);
+        const weights = rbf.weights(query);
+        expect(weights.reduce((a, b) => a + b)).toBeCloseTo(1, 9);
+        expectClose(rbf.evaluate(query), [5], 1e-9, `${far}`);
+        expect(rbf.gradient(query).every((slope) => Math.abs(slope) < 1e-6 / width)).toBe(true);
+      }
+      expect(errorOf(() => rbf.leaveOneOut()).code).toBe('invalid-option');
     }
-    expect(errorOf(() => rbf.leaveOneOut()).code).toBe('invalid-option');
-  }
+});
+
+test.each(normalizable)(
+  '%s, normalized, follows the nearest center where no kernel reaches, and shares among several',
+  (kernel) => {
+    const data = {
+      dimension: 1,
+      points: [0, 1, 20, 21],
+      values: [5, 6, 7, 8],
+      width: 0.02,
+      support: 4,
+      normalized: true,
+      onWarning: quiet,
+    };
+    using rbf = hb.rbf({ ...data, kernel: kernel === 'a function' ? (s) => Math.max(0, 1 - s) ** 2 : kernel });
+    const local = kernel === 'a function' || kernel === 'gaussian' || known(kernel).compact;
+    if (!local) return;
+    expectClose(rbf.evaluate([9, 12, 1e3, -50]), [6, 7, 8, 5], 1e-9);
+    expectClose(rbf.evaluate([10.5]), [6.5], 1e-9);
+    expectClose(rbf.gradient([9, 12]), [0, 0], 1e-9);
+  },
+);
+
+test.each(names.filter((kernel) => !normalizable.includes(kernel)))('%s cannot be normalized, and what can is named', (kernel) => {
+  const data = { dimension: 1, points: [0, 1, 2], values: [1, 2, 3], normalized: true, onWarning: quiet };
+  const { code, remedy } = errorOf(() => hb.rbf({ ...data, kernel: kernel as KernelName, width: 4 }));
+  expect(code).toBe('invalid-option');
+  const named = names.filter((name) => new RegExp(`\\b${name}\\b`).test(remedy));
+  expect(named.length).toBeGreaterThan(2);
+  for (const other of named) hb.rbf({ ...data, kernel: other as KernelName, width: 1 }).dispose();
 });
 
 test(`a Mahalanobis metric LLᵀ is Euclidean distance after Lᵀ (seed ${seed})`, () => {
@@ -154,7 +194,8 @@ test(`a Mahalanobis metric LLᵀ is Euclidean distance after Lᵀ (seed ${seed})
   const transform = (all: number[]) => all.flatMap((x, i) => (i % 2 ? [] : [a * x + b * (all[i + 1] ?? 0), c * (all[i + 1] ?? 0)]));
   const [points, values, queries] = [next.numbers(24), next.numbers(12), next.numbers(10)];
   const metric = [a * a, a * b, a * b, b * b + c * c];
-  for (const kernel of ['gaussian', 'thin-plate', 'wendland-c2', 'multiquadric'] as const) {
+  for (const kernel of names) {
+    if (kernel === 'clamped-plate') continue; // its ball is centered on the box of the points, which the metric changes
     using direct = made(kernel, 2, transform(points), values);
     using stretched = made(kernel, 2, points, values, { metric });
     expectClose(stretched.evaluate(queries), direct.evaluate(transform(queries)), 1e-9);

@@ -43,11 +43,13 @@ Result<RbfOptions> read_options(const hb_rbf_options& from, uint32_t dimension) 
   return options;
 }
 
-/** Pairs of points closer than a thousandth of the mean spacing. */
-void list_near_pairs(const ScatteredData& data, double spacing, hb_rbf_report& report) {
-  const double limit = spacing * spacing * 1e-6;
-  const Index d = data.points.cols();
-  const double* a = data.points.data();
+/** Pairs of points closer than a thousandth of the mean spacing, in the metric of the fit. */
+void list_near_pairs(const Rbf& rbf, double spacing, hb_rbf_report& report) {
+  const ScatteredData& data = rbf.data();
+  const Matrix inner = rbf.basis().to_inner(data.points);
+  const double least = spacing * rbf.basis().scale() * 1e-3, limit = least * least;
+  const Index d = inner.cols();
+  const double* a = inner.data();
   constexpr uint32_t most = sizeof report.near_pairs / sizeof report.near_pairs[0] / 2;
   for (Index i = 0; i < data.points.rows(); ++i) {
     for (Index j = 0; j < i; ++j) {
@@ -95,7 +97,7 @@ int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* out) {
   report.suggested_width = from.suggested_width;
   report.suggested_smoothing = from.suggested_smoothing;
   report.center_count = static_cast<uint32_t>(rbf.kernel_coefficients().rows());
-  list_near_pairs(rbf.data(), from.spacing, report);
+  list_near_pairs(rbf, from.spacing, report);
   *out = report;
   return HB_OK;
 }

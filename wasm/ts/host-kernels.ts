@@ -48,7 +48,8 @@ export class HostKernels {
     const kernel = this.#kernels.get(id);
     if (!kernel) return Number.NaN;
     try {
-      const got = (derivative ? kernel.derivative : kernel.value)(s);
+      // So far away that the distance overflows, kernels need not know what infinity is.
+      const got = (derivative ? kernel.derivative : kernel.value)(Math.min(s, 1e300));
       if (Number.isFinite(got)) return got;
       this.#failure ??= { s, got, thrown: false };
     } catch (error) {

@@ -38,14 +38,21 @@ export interface PoseExample {
   readonly shape: ArrayLike<number>;
 }
 
+/** A dimension of a pose space. */
+export interface PoseDimension {
+  readonly name: string;
+  /** What counts as 1 in distances, finite and above 0 (default 1): they are those of coordinate / scale. */
+  readonly scale?: number;
+}
+
 export interface PoseSpaceOptions {
-  /** Names of the dimensions, 1 to 64. */
-  readonly dimensions: readonly string[];
+  /** The dimensions, 1 to 64: a name each, or a name and a scale. */
+  readonly dimensions: readonly (string | PoseDimension)[];
   readonly examples: readonly PoseExample[];
   readonly method?: PoseSpaceMethod;
   /** `'auto'`: multiquadric for cardinal, inverse-multiquadric for normalized. The normalized method takes no kernel that is 0 at r = 0. */
   readonly kernel?: PoseSpaceKernel | 'auto';
-  /** In units of the dimensions. `'auto'`: for each example a fixed part of the distance to its nearest neighbor. */
+  /** In units of the dimensions' scales. `'auto'`: for each example a fixed part of the distance to its nearest neighbor. */
   readonly width?: number | 'auto';
   /** Polynomial tail. 1 makes weights reproduce linear functions, Σ wₖ(x) xₖ = x. `'auto'`: the lowest that the kernel allows. */
   readonly degree?: -1 | 0 | 1 | 'auto';
@@ -70,12 +77,15 @@ const KERNELS: readonly PoseSpaceKernel[] = [
 ];
 const NEEDS_LINEAR_TAIL: readonly PoseSpaceKernel[] = ['cubic', 'thin-plate'];
 
-/** Places closer than this part of their bounding box's diagonal count as one: the solver's own rule. */
+/** Places closer than this part of their extent on every axis count as one: the solver's own rule. */
 const COINCIDENT = 1e-9;
 
 /**
  * Examples in a pose space (2014 course, §2.2 and §3.4): at any point every example has a weight, 1 at its own place and 0 at the
  * others', smooth in between and summing to 1 everywhere; the shape there is the weighted sum of the examples' shapes.
+ *
+ * Distances are Euclidean, of coordinate / scale, but a dimension in which the examples span less than a thousandth of the widest counts as
+ * spanning a thousandth: dimensions in units that have nothing in common are kept apart without scales too.
  *
  * ```ts
  * const space = hb.poseSpace({
@@ -104,17 +114,20 @@ export class PoseSpace {
   readonly #weights: Float64Array;
   /** shapeLength × examples: all that one number of the result needs is contiguous. */
   readonly #shapes: Float64Array;
+  readonly #scales: readonly number[];
   readonly #owned: Owned;
 
   /** @internal Use `Handlebody.poseSpace`. */
   constructor(heap: Heap, given: PoseSpaceOptions) {
-    const { dimensions, examples, ...how } = options(given, READERS, POSE_SPACE_DEFAULTS);
+    const { dimensions: axes, examples, ...how } = options(given, READERS, POSE_SPACE_DEFAULTS);
     const { method, kernel, width, degree } = resolve(how);
+    const dimensions = axes.map(({ name }) => name);
+    this.#scales = axes.map(({ scale }) => scale);
     checkShapes(examples);
     const { kept, merged } = mergeDuplicates(examples, dimensions.length);
     const count = kept.length;
 
-    this.dimensions = [...dimensions];
+    this.dimensions = dimensions;
     this.names = kept.map((index) => exampleAt(examples, index).name);
     this.merged = merged;
     this.shapeLength = examples[0]?.shape.length ?? 0;
@@ -123,7 +136,9 @@ export class PoseSpace {
     const places = new Float64Array(count * dimensions.length);
     kept.forEach((index, k) => {
       const { at, shape } = exampleAt(examples, index);
-      places.set(Array.from(at), k * dimensions.length);
+      this.#scales.forEach((scale, axis) => {
+        places[k * dimensions.length + axis] = (at[axis] ?? 0) / scale;
+      });
       for (let i = 0; i < shape.length; i++) this.#shapes[i * count + k] = shape[i] ?? 0;
     });
 
@@ -194,7 +209,8 @@ export class PoseSpace {
         remedy: 'Give one coordinate a dimension.',
       });
     }
-    this.#heap.f64(this.#query, at.length).set(at);
+    const query = this.#heap.f64(this.#query, at.length);
+    for (let axis = 0; axis < query.length; axis++) query[axis] = (at[axis] as number) / (this.#scales[axis] as number);
     this.#heap.check((e) => e.hb_pose_space_weights(space, this.#query, this.#weightsAt));
     this.#weights.set(this.#heap.f64(this.#weightsAt, this.#weights.length));
   }
@@ -202,9 +218,13 @@ export class PoseSpace {
 
 const QUERY = { code: 'query-not-finite', kind: 'query', index: 0 } as const;
 
+const DIMENSION = { name: text, scale: positive } satisfies Readers<PoseDimension>;
+
 const READERS = {
   dimensions: (value, name) => {
-    const dimensions = list(value, name, 'names of dimensions', (each, label) => text(each, label));
+    const dimensions = list(value, name, 'names of dimensions', (each, label) =>
+      typeof each === 'string' ? { name: each, scale: 1 } : options(each, DIMENSION, { scale: 1 }, label),
+    );
     if (dimensions.length > 0) return dimensions;
     throw new HandlebodyError('invalid-shape', {
       message: 'The pose space has no dimensions.',
@@ -213,7 +233,7 @@ const READERS = {
   },
   examples: (value, name, { dimensions } = {}) =>
     list(value, name, 'examples, each { name, at, shape }', (example, label, index) =>
-      readExample(example, label, index, (dimensions as readonly string[]).length),
+      readExample(example, label, index, (dimensions as readonly PoseDimension[]).length),
     ),
   method: named(METHODS),
   kernel: named(['auto', ...KERNELS]),
@@ -267,11 +287,11 @@ function checkShapes(examples: readonly ReadExample[]): void {
 
 /** Which examples to keep: of several at one place the first, if their shapes are equal; it is an error otherwise. */
 function mergeDuplicates(examples: readonly ReadExample[], dimension: number) {
-  const tolerance = COINCIDENT * diagonal(examples, dimension);
+  const tolerances = placeTolerances(examples, dimension);
   const kept: number[] = [];
   const merged: { name: string; into: string }[] = [];
   examples.forEach((example, index) => {
-    const twin = kept.find((other) => distance(example.at, exampleAt(examples, other).at) <= tolerance);
+    const twin = kept.find((other) => atOnePlace(example.at, exampleAt(examples, other).at, tolerances));
     if (twin === undefined) {
       kept.push(index);
       return;
@@ -289,19 +309,22 @@ function mergeDuplicates(examples: readonly ReadExample[], dimension: number) {
   return { kept, merged };
 }
 
-function diagonal(examples: readonly ReadExample[], dimension: number): number {
-  const extents = Array.from({ length: dimension }, (_, axis) => {
+function placeTolerances(examples: readonly ReadExample[], dimension: number): number[] {
+  return Array.from({ length: dimension }, (_, axis) => {
     const coordinates = examples.map(({ at }) => at[axis] ?? 0);
     // No spread into Math.max: it overflows the stack for long lists.
-    return coordinates.reduce((a, b) => Math.max(a, b)) - coordinates.reduce((a, b) => Math.min(a, b));
+    const extent = coordinates.reduce((a, b) => Math.max(a, b)) - coordinates.reduce((a, b) => Math.min(a, b));
+    return COINCIDENT * Math.sqrt(dimension) * extent;
   });
-  return Math.hypot(...extents);
 }
 
-function distance(a: ArrayLike<number>, b: ArrayLike<number>): number {
-  let sum = 0;
-  for (let i = 0; i < a.length; i++) sum = Math.hypot(sum, (a[i] ?? 0) - (b[i] ?? 0));
-  return sum;
+function atOnePlace(a: ArrayLike<number>, b: ArrayLike<number>, tolerances: readonly number[]): boolean {
+  let apart = 0;
+  for (let axis = 0; axis < tolerances.length && apart <= 1; axis++) {
+    const offset = (a[axis] as number) - (b[axis] as number);
+    if (offset !== 0) apart = Math.hypot(apart, offset / (tolerances[axis] as number));
+  }
+  return apart <= 1;
 }
 
 function equal(a: ArrayLike<number>, b: ArrayLike<number>): boolean {

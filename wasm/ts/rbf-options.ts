@@ -28,19 +28,29 @@ export interface RbfOptions extends ScatteredData {
    * `'leave-one-out'`, the one with the least leave-one-out error (some 25 fits).
    */
   readonly width?: number | Numbers | 'auto' | 'leave-one-out';
-  /** Degree of the polynomial tail; −1 is none. `'auto'`: the lowest that the kernel needs. */
+  /**
+   * Degree of the polynomial tail; −1 is none. `'auto'`: the lowest that the kernel needs. What the points do not determine of it, as a slope
+   * across a line that all are on, is left out.
+   */
   readonly degree?: -1 | 0 | 1 | 2 | 'auto';
   /** λ of R + λI (SciPy's `smoothing`), in units of the kernel: 0 interpolates. The polynomial part is not penalized. */
   readonly smoothing?: number;
   /** λ of min ‖Rw − d‖² + λ‖w‖² (2014 course, eq. (3)). */
   readonly weightDecay?: number;
-  /** Divides the kernels by their sum: weights stay small, and constants are reproduced without a tail. */
+  /**
+   * Divides the kernels by their sum: weights stay small, and constants are reproduced without a tail. Where no kernel reaches, beyond the
+   * supports of compact ones, the center that is nearest in terms of its width counts alone, as in the limit of wider kernels.
+   */
   readonly normalized?: boolean;
   /** Fewer centers than points, k × dimension or k rows: a least-squares fit. Left out, each point is one. */
   readonly centers?: Numbers;
   /** Which points a least-squares fit with `centers` trusts: all; `'least-absolute'`, all but a few; `'least-median'`, the better half. */
   readonly robust?: 'least-absolute' | 'least-median';
-  /** M of a Mahalanobis distance r² = xᵀMx, dimension × dimension, symmetric and positive definite. */
+  /**
+   * M of a Mahalanobis distance r² = xᵀMx, dimension × dimension, symmetric and positive definite. Left out, distances are Euclidean, but an
+   * axis on which the points span less than a thousandth of the longest counts as spanning a thousandth, with a warning: so axes in units
+   * that have nothing in common are kept apart.
+   */
   readonly metric?: Numbers;
   /** Order of the kernels 'polyharmonic' and 'clamped-plate', more than half the dimension: 2 is biharmonic, 3 triharmonic. */
   readonly order?: number;

@@ -23,7 +23,8 @@ export type RbfWarningCode =
   | 'merged-duplicates'
   | 'misses-points'
   | 'not-definite'
-  | 'unequal-widths';
+  | 'unequal-widths'
+  | 'uneven-axes';
 
 /** Something that a fit survives and its user should know: a stable code for programs, sentences for people. */
 export interface RbfWarning {
@@ -33,7 +34,7 @@ export interface RbfWarning {
   /** The points concerned, where there are any. */
   readonly points?: readonly number[];
   /** Options that would do better. */
-  readonly suggestion?: { readonly width?: number; readonly smoothing?: number };
+  readonly suggestion?: { readonly width?: number; readonly smoothing?: number; readonly metric?: readonly number[] };
 }
 
 /** Prints a warning where no `onWarning` was given. */

@@ -21,9 +21,16 @@ const NARROW = 0.3;
 
 /** The warnings that a fit deserves, the weightiest first. */
 export function warningsOf(report: Omit<RbfReport, 'warnings'>, facts: WarningFacts): RbfWarning[] {
-  return [illConditioned, missesPoints, nearDuplicates, mergedDuplicates, narrowWidth, notDefinite, unequalWidths].flatMap(
-    (check) => check(report, facts),
-  );
+  return [
+    illConditioned,
+    missesPoints,
+    nearDuplicates,
+    mergedDuplicates,
+    narrowWidth,
+    notDefinite,
+    unequalWidths,
+    unevenAxes,
+  ].flatMap((check) => check(report, facts));
 }
 
 type Check = (report: Omit<RbfReport, 'warnings'>, facts: WarningFacts) => RbfWarning[];
@@ -129,6 +136,38 @@ const unequalWidths: Check = (_, { options }) => {
       code: 'unequal-widths',
       message: 'With a width for each center the matrix is not symmetric, and no theorem says that it is regular.',
       remedy: 'Mind the condition number.',
+    },
+  ];
+};
+
+/** The solver's own rule: no axis counts as shorter than this part of the longest. */
+const SHORTEST_AXIS = 1e-3;
+
+const unevenAxes: Check = ({ kernel }, { options, dimension }) => {
+  if (options.metric) return [];
+  const extents = Array.from({ length: dimension }, (_, axis) => {
+    let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+    for (let i = axis; i < options.points.length; i += dimension) {
+      low = Math.min(low, options.points[i] as number);
+      high = Math.max(high, options.points[i] as number);
+    }
+    return high - low;
+  });
+  const [longest, shortest] = [Math.max(...extents), Math.min(...extents.filter((extent) => extent > 0))];
+  if (!(shortest < SHORTEST_AXIS * longest)) return [];
+  const metric = new Array<number>(dimension * dimension).fill(0);
+  extents.forEach((extent, axis) => {
+    metric[axis * dimension + axis] = Number(((extent || longest) ** -2).toPrecision(3));
+  });
+  return [
+    {
+      code: 'uneven-axes',
+      message: `Axis ${extents.indexOf(shortest)} spans ${short(shortest)} and axis ${extents.indexOf(longest)} ${short(longest)}: no axis counts as shorter than a thousandth of the longest.`,
+      remedy:
+        kernel === 'tension'
+          ? 'Divide the coordinates of each axis by what they span.'
+          : `Give a metric: 1 / extent² on its diagonal evens them out${dimension < 4 ? `, [${metric.join(', ')}]` : ''}, the identity keeps plain distances.`,
+      ...(kernel !== 'tension' && { suggestion: { metric } }),
     },
   ];
 };

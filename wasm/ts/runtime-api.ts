@@ -28,6 +28,7 @@ export { OUTLIER_DEFAULTS, type OutlierMethod, type OutlierOptions, type Outlier
 export type { OutsideHull } from './outside-hull.ts';
 export {
   POSE_SPACE_DEFAULTS,
+  type PoseDimension,
   type PoseExample,
   PoseSpace,
   type PoseSpaceKernel,

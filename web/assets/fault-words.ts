@@ -108,6 +108,9 @@ export const FAULTS = {
   }),
   'pose-lists': pose(() => 'lists no dimensions or no examples'),
   'pose-dimension': pose(() => 'has a dimension without a name, or whose minimum is not below its maximum'),
+  'pose-scale': pose(
+    (i, scale) => `has a scale that is no finite number above 0: HANDLEBODY_pose_space.dimensions[${i}].scale is ${show(scale)}`,
+  ),
   'pose-names': pose(() => 'uses one name for two dimensions'),
   'pose-example': pose((i) => `has no name for example ${i}`),
   'pose-both': pose((i) => `gives example ${i} both weights and a target`),

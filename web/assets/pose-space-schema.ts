@@ -3,7 +3,7 @@
  *
  *   "extensions": { "HANDLEBODY_pose_space": {
  *     "version": 1,
- *     "dimensions": [ { "name": "valence", "min": -1, "max": 1 }, … ],
+ *     "dimensions": [ { "name": "valence", "min": -1, "max": 1 }, … ],       and "scale": what counts as 1 in distances; 1 where left out
  *     "examples": [
  *       { "name": "happy", "at": [0.83, 0.53], "weights": [one a morph target] },
  *       { "name": "sad", "at": [-0.65, -0.27], "target": 4 }, …           a morph target of its own, the other weights being 0
@@ -24,7 +24,13 @@ const MOST_WEIGHTS = 1 << 20;
 /** A pose space as files have it. */
 export interface StoredPoseSpace<Example> {
   readonly version: typeof POSE_SPACE_VERSION;
-  readonly dimensions: readonly { readonly name: string; readonly min: number; readonly max: number }[];
+  readonly dimensions: readonly {
+    readonly name: string;
+    readonly min: number;
+    readonly max: number;
+    /** What counts as 1 in distances, finite and above 0; 1 where it is left out. */
+    readonly scale?: number;
+  }[];
   readonly examples: readonly (Example & {
     readonly name: string;
     /** One number a dimension. */
@@ -52,12 +58,14 @@ export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: nu
   if (!Array.isArray(space.dimensions) || space.dimensions.length === 0 || !Array.isArray(space.examples)) {
     throw new Fault('pose-lists');
   }
-  const dimensions = space.dimensions.map((entry) => {
-    const { name, min, max } = asObject(entry) ?? {};
+  const dimensions = space.dimensions.map((entry, i) => {
+    const { name, min, max, scale } = asObject(entry) ?? {};
     if (typeof name !== 'string' || !isNumber(min) || !isNumber(max) || min >= max) {
       throw new Fault('pose-dimension');
     }
-    return { name, min, max };
+    if (scale === undefined) return { name, min, max };
+    if (!isNumber(scale) || scale <= 0) throw new Fault('pose-scale', [i, scale]);
+    return { name, min, max, scale };
   });
   if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw new Fault('pose-names');
   const targets = space.examples.filter((entry) => asObject(entry)?.target !== undefined).length;

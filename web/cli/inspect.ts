@@ -122,6 +122,7 @@ function table(facts: Facts): string[] {
     ['triangles', facts.triangles],
     ['components', facts.components],
     ['size', size],
+    ['bounds', bounds && `${bounds.low.map(short).join(', ')} to ${bounds.high.map(short).join(', ')}`],
     ['origin', facts.origin && `${facts.origin.join(', ')}: handles count from the scene's own, distances and vertices from here`],
     ['meshes', named(facts.meshes)],
     ['materials', named(facts.materials)],
@@ -146,7 +147,8 @@ function table(facts: Facts): string[] {
   } else if (body) rows.push(['  for this shape', `no (${body.error})`]);
   for (const { mesh, meshNumber, dimensions, examples, targets } of facts.poseSpaces) {
     rows.push(['pose space', `of mesh ${meshNumber}${mesh && `, "${mesh}"`}, ${targets} morph targets`]);
-    for (const { name, min, max } of dimensions) rows.push([`  ${name}`, `${min} … ${max}`]);
+    for (const { name, min, max, scale } of dimensions)
+      rows.push([`  ${name}`, `${min} … ${max}${scale ? `, scale ${scale}` : ''}`]);
     rows.push(['  examples', `${examples.length}`]);
     for (const { name, at } of examples) rows.push([`    ${name}`, at.map(short).join(', ')]);
   }

@@ -35,7 +35,7 @@ export async function poseCommand({ values, words, report, signal, clock }: Run)
 
   const hb = await load({ signal });
   const poses = hb.poseSpace({
-    dimensions: space.dimensions.map(({ name }) => name),
+    dimensions: space.dimensions,
     examples: space.examples.map(({ name, at: where, weights }) => ({ name, at: where, shape: weights })),
   });
   const weights = sumByName(poses.names, poses.weights(place));

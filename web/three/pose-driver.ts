@@ -59,7 +59,7 @@ export class PoseDriver {
   constructor(hb: HandlebodyRuntime, { dimensions, examples, meshes }: DrivenSpace, object?: Object3D) {
     const shapes = examples.map(({ weights }) => weights);
     this.#space = hb.poseSpace({
-      dimensions: dimensions.map(({ name }) => name),
+      dimensions,
       examples: examples.map(({ name, at, weights }) => ({ name, at: [...at], shape: weights })),
     });
     const others = object ? followersBelow(object, meshes, shapes[0]?.length ?? 0) : [];

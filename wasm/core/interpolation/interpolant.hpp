@@ -32,15 +32,18 @@ class Interpolant {
  protected:
   explicit Interpolant(ScatteredData data);
 
-  /** The weights w (n) of the points that were kept and, unless `slopes` is null, the gradient of each (n×d). Uses the object's
-   *  own scratch space only. */
+  /** The weights w (n) of the points that were kept and, unless `slopes` is null, the gradient of each (n×d). `query` has the
+   *  measures of the data, if there are any. Uses the object's own scratch space only. */
   virtual void weigh(const double* query, double* w, double* slopes) = 0;
 
   ScatteredData data_;
 
  private:
+  const double* measure(const double* query);
+
   Vector w_;       // scratch of evaluate() and gradient()
   Matrix slopes_;  // likewise
+  Vector query_;   // likewise, where there are measures
 };
 
 }  // namespace handlebody

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/interpolation/polynomial.hpp"
 #include "core/numerics/decompositions.hpp"
 #include "core/numerics/products.hpp"
 
@@ -18,11 +17,11 @@ double or_infinite(double condition) {
 }
 
 /** The polynomials of the tail at inner coordinates (n×tail, of which the first `columns` are wanted). */
-MatrixXd tail_at(const RadialBasis& basis, const Matrix& inner, Index columns) {
+MatrixXd tail_at(RadialBasis& basis, const Matrix& inner, Index columns) {
   MatrixXd p(inner.rows(), columns);
   Vector row(basis.tail());
   for (Index i = 0; i < inner.rows(); ++i) {
-    polynomial_values(&inner(i, 0), basis.dimension(), basis.degree(), row.data());
+    basis.polynomials(&inner(i, 0), row.data());
     p.row(i) = row.head(columns).transpose();
   }
   return p;
@@ -173,7 +172,7 @@ class DefiniteFit final : public LinearFit, private Inverse {
 /** The null space of the side conditions P(centers)ᵀ c = 0, as Householder reflections: c = Q [0; z]. */
 class SideConditions {
  public:
-  SideConditions(const RadialBasis& basis, const Matrix& centers)
+  SideConditions(RadialBasis& basis, const Matrix& centers)
       : k_(basis.centers()), fixed_(std::min(basis.tail(), k_)), qr_(tail_at(basis, basis.to_inner(centers), fixed_)) {}
 
   Index free() const { return k_ - fixed_; }

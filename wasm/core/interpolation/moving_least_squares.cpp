@@ -56,18 +56,19 @@ Result<MovingLeastSquares> MovingLeastSquares::create(const Eigen::Ref<const Mat
   for (Index i = 0; i < inner.rows(); ++i)
     for (Index axis = 0; axis < inner.cols(); ++axis)
       inner(i, axis) = (inner(i, axis) - data->points(0, axis)) / (data->diagonal > 0 ? data->diagonal : 1);
-  if (auto unisolvent = check_unisolvent(inner, options.degree); !unisolvent) return unisolvent.error();
-  return MovingLeastSquares(std::move(*data), options);
+  PolynomialSpace space(inner, options.degree);
+  return MovingLeastSquares(std::move(*data), options, std::move(space));
 }
 
-MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSquaresOptions& options)
+MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSquaresOptions& options, PolynomialSpace space)
     : Interpolant(std::move(data)),
       options_(options),
       unit_(data_.diagonal > 0 ? data_.diagonal : 1),
       width_(options.width),
       epsilon_(options.epsilon > 0 ? in_range(options.epsilon / unit_) : 0),
-      qr_(data_.points.rows(), polynomial_count(options.degree, data_.points.cols())) {
-  const Index n = data_.points.rows(), d = dimension(), count = polynomial_count(options.degree, d);
+      space_(std::move(space)),
+      qr_(data_.points.rows(), space_.size()) {
+  const Index n = data_.points.rows(), d = dimension(), count = space_.size();
   if (width_ == 0 && options.weight != MovingWeight::inverse_distance) {
     double sum = 0;
     Index apart = 0;
@@ -85,6 +86,7 @@ MovingLeastSquares::MovingLeastSquares(ScatteredData data, const MovingLeastSqua
   roots_.resize(n);
   solution_.resize(n);
   offset_.resize(d);
+  turned_.resize(d);
   difference_.resize(d);
   direction_.resize(d);
   monomials_.resize(count);
@@ -130,16 +132,17 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
     qr_.set_row(row, roots[row], monomials_.data());
   }
   int degree = -1;
-  while (degree < options_.degree && qr_.extend(polynomial_count(degree + 1, d))) ++degree;
+  while (degree < options_.degree && qr_.extend(space_.count(degree + 1))) ++degree;
 
   // f(x) = p(x)ᵀa with a = (√W P)⁺ √W f, so ψ = √W (√W P)⁺ᵀ p(x).
   for (Index axis = 0; axis < d; ++axis) offset_[axis] = (query[axis] - data_.points(own_, axis)) / unit_;
   if (!singular) {
-    polynomial_values(offset_.data(), d, degree, monomials_.data());
+    space_.turn(offset_.data(), turned_.data());
+    space_.values(turned_.data(), monomials_.data());
     qr_.solve_transposed(monomials_.data(), solution);
     for (Index row = 0; row < rows; ++row) w[point_of[row]] = roots[row] * solution[row];
   }
-  if (slopes) set_slopes(query, degree, w, slopes);
+  if (slopes) set_slopes(query, w, slopes);
 }
 
 /** The weights' gradients. With Ψ = (√W P)⁺ √W, so that a = Ψf and ψ = Ψᵀp(x), and gᵢ = ψᵢ ∇ln wᵢ, the formula of the header reads
@@ -147,14 +150,15 @@ void MovingLeastSquares::weigh(const double* query, double* w, double* slopes) {
  *   ∇ψₖ = gₖ + Ψₖᵀ (∇p(x) − Σᵢ gᵢ p(xᵢ)).
  *
  * Near a point its own g is as steep as p/r but almost cancels, so its slope is taken from Σₖ∇ψₖ = 0. */
-void MovingLeastSquares::set_slopes(const double* query, int degree, const double* w, double* slopes) {
+void MovingLeastSquares::set_slopes(const double* query, const double* w, double* slopes) {
   const Index d = dimension(), count = qr_.rank(), rows = qr_.rows();
   const std::uint32_t* const point_of = rows_.data();
   const double *const roots = roots_.data(), *const distances = distances_.data(), *const monomials = monomials_.data();
   double *const gradients = gradients_.data(), *const direction = direction_.data(), *const stretch = offset_.data();
   double *const right = right_.data(), *const solution = solution_.data();
 
-  polynomial_gradients(offset_.data(), d, degree, gradients);
+  space_.turn(offset_.data(), turned_.data());
+  space_.gradients(turned_.data(), gradients);
   if (farthest_ < 0 || !set_direction(query, farthest_)) direction_.setZero();
   for (Index axis = 0; axis < d; ++axis) stretch[axis] = direction[axis] / margin;  // ∇h, where h follows a point
   for (Index row = 0; row < rows; ++row) {
@@ -256,7 +260,8 @@ void MovingLeastSquares::set_monomials(Index point) {
   const double one_over_unit = 1 / unit_;
   double* const difference = difference_.data();
   for (Index axis = 0; axis < d; ++axis) difference[axis] = (x[axis] - origin[axis]) * one_over_unit;
-  polynomial_values(difference, d, options_.degree, monomials_.data());
+  space_.turn(difference, turned_.data());
+  space_.values(turned_.data(), monomials_.data());
 }
 
 /** The unit vector from a point to the query, 0 from infinitely far; false where the query is the point. */

@@ -16,7 +16,8 @@
 // and at a point itself, where w is singular, its limit for p > 1: the gradient of the fit of all others through the point. There
 // is no gradient (NaN) at the points for p ≤ 1 or ε > 0, which make cusps; and `wendland` has kinks where it widens.
 //
-// Where points are too few. The points as a whole must determine the polynomials: create() checks it. Locally,
+// Where points are too few. What the points as a whole do not determine, as slopes across a line that all are on, is left out of
+// the polynomials: polynomial_space.hpp. Locally,
 //   - `wendland` widens where fewer than 2q points (q polynomials) are within 0.8 h: h becomes 1.25 times the distance of the
 //   2q-th;
 //   - where the points of any weight still do not determine the polynomial (to 1e-10 of their extent: on one line, say), the degree
@@ -26,6 +27,7 @@
 #pragma once
 
 #include "core/interpolation/interpolant.hpp"
+#include "core/interpolation/polynomial_space.hpp"
 #include "core/numerics/graded_qr.hpp"
 
 namespace handlebody {
@@ -44,9 +46,8 @@ struct MovingLeastSquaresOptions {
 
 class MovingLeastSquares final : public Interpolant {
  public:
-  /** Fails with the codes of check_data(), POINTS_TOO_FEW or POINTS_DEGENERATE of check_unisolvent(), INVALID_OPTION, or
-   * OUT_OF_MEMORY. Points may coincide unless the weight is singular. A query costs O(nq²) for q polynomials, with n the points
-   * within h for `wendland`. */
+  /** Fails with the codes of check_data(), INVALID_OPTION, or OUT_OF_MEMORY. Points may coincide unless the weight is singular. A
+   * query costs O(nq²) for q polynomials, with n the points within h for `wendland`. */
   static Result<MovingLeastSquares> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                                            const MovingLeastSquaresOptions& options = {});
 
@@ -54,7 +55,7 @@ class MovingLeastSquares final : public Interpolant {
   double width() const;
 
  private:
-  MovingLeastSquares(ScatteredData data, const MovingLeastSquaresOptions& options);
+  MovingLeastSquares(ScatteredData data, const MovingLeastSquaresOptions& options, PolynomialSpace space);
 
   void weigh(const double* query, double* w, double* slopes) override;
 
@@ -64,26 +65,27 @@ class MovingLeastSquares final : public Interpolant {
   double steepness(double r) const;
   void set_monomials(Index point);
   bool set_direction(const double* query, Index point);
-  void set_slopes(const double* query, int degree, const double* w, double* slopes);
+  void set_slopes(const double* query, const double* w, double* slopes);
 
   MovingLeastSquaresOptions options_;
   double unit_;  // the data's diagonal: the unit of all lengths below
   double width_, epsilon_;
-  GradedQr qr_;  // of √W P, one row for each point of any weight
+  PolynomialSpace space_;  // in diagonals
+  GradedQr qr_;            // of √W P, one row for each point of any weight
 
   // Of the current query:
-  Vector distances_;                  // n
-  Index own_ = 0;                     // the nearest point, where the monomials have their origin
-  double second_ = 1;                 // distance to the second nearest
-  double reach_ = 1;                  // h here
-  Index farthest_ = -1;               // the point that h follows, where it widens
-  Indices rows_;                      // the point of each row
-  Vector roots_;                      // √w of each point, then of each row
-  Vector offset_, right_, solution_;  // scratch: d, q, n
-  Vector difference_, monomials_;     // of set_monomials()
-  Vector direction_;                  // of set_direction()
-  Matrix gradients_;                  // of set_slopes(), q×d
-  Indices nearest_;                   // of widen()
+  Vector distances_;                           // n
+  Index own_ = 0;                              // the nearest point, where the monomials have their origin
+  double second_ = 1;                          // distance to the second nearest
+  double reach_ = 1;                           // h here
+  Index farthest_ = -1;                        // the point that h follows, where it widens
+  Indices rows_;                               // the point of each row
+  Vector roots_;                               // √w of each point, then of each row
+  Vector offset_, turned_, right_, solution_;  // scratch: d, d, q, n
+  Vector difference_, monomials_;              // of set_monomials()
+  Vector direction_;                           // of set_direction()
+  Matrix gradients_;                           // of set_slopes(), q×d
+  Indices nearest_;                            // of widen()
 };
 
 }  // namespace handlebody

@@ -21,6 +21,7 @@ Result<NaturalNeighbor> NaturalNeighbor::create(const Eigen::Ref<const Matrix>& 
                  {"Give points of 2 coordinates, or use simplexLinear() or rbf(), which take any dimension."});
   auto data = check_data(points, values, Coincident::merge);
   if (!data) return data.error();
+  if (auto compared = compare_axes(*data); !compared) return compared.error();
   return NaturalNeighbor(std::move(*data), outside);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/interpolation/width_choice.hpp"
 #include "core/numerics/indices.hpp"
 
 namespace handlebody {
@@ -55,9 +56,10 @@ Result<Rbf> fit(const ScatteredData& data, const std::vector<std::uint32_t>& in,
 }
 
 /** λ that makes the fit a compromise between neighbors. */
-double automatic_smoothing(const Matrix& points, const Kernel& kernel) {
+double automatic_smoothing(const Matrix& points, const RadialBasisOptions& basis) {
+  const Kernel& kernel = basis.kernel;
   if (kernel.has_width()) return 0.5;  // of φ(0) = 1
-  const double spacing = points.rows() > 1 ? nearest_distances(points).mean() : 1;
+  const double spacing = points.rows() > 1 ? metric_spacing(points, basis.metric) : 1;
   double lambda = 1;
   for (int e = kernel.homogeneity(); e > 0; --e) lambda *= spacing;
   return lambda;
@@ -77,9 +79,10 @@ Result<OutlierReport> find_outliers(const Eigen::Ref<const Matrix>& points, cons
   RbfOptions rbf_options = given;
   const bool automatic = given.smoothing < 0;
   if (automatic) rbf_options.smoothing = 0;
-  auto data = check_data(points, values, rbf_options.smoothing > 0 ? Coincident::keep : Coincident::merge);
+  auto data =
+      check_in_metric(points, values, rbf_options.basis.metric, rbf_options.smoothing > 0 ? Coincident::keep : Coincident::merge);
   if (!data) return data.error();
-  if (automatic) rbf_options.smoothing = automatic_smoothing(data->points, rbf_options.basis.kernel);
+  if (automatic) rbf_options.smoothing = automatic_smoothing(data->points, rbf_options.basis);
 
   OutlierReport report;
   report.smoothing = rbf_options.smoothing;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "core/interpolation/polynomial.hpp"
 #include "core/kernels/clamped_plate.hpp"
 #include "core/numerics/decompositions.hpp"
 #include "core/numerics/products.hpp"
@@ -30,7 +31,7 @@ Result<Done> check_options(const RadialBasisOptions& options, Index dimension, I
                         {"Use a lower order."});
   if (options.normalized && (kernel.vanishes_at_center() || kernel.kind == KernelKind::clamped_plate))
     return option_error({"This kernel is zero at its own place or on a sphere and cannot be normalized."},
-                        {"Use gaussian, multiquadric, inverse multiquadric or inverse quadratic, or do not normalize."});
+                        {"Use gaussian, multiquadric, inverse-multiquadric or inverse-quadratic, or leave out normalized."});
   if (!options.normalized && options.degree < needed)
     return option_error({"This kernel needs a polynomial tail of degree ", needed, " or more; it has degree ", options.degree, "."},
                         {"Raise the degree to ", needed, "."});
@@ -52,6 +53,20 @@ Result<Done> check_options(const RadialBasisOptions& options, Index dimension, I
 
 }  // namespace
 
+Result<MatrixXd> metric_root(const MatrixXd& metric, Index dimension) {
+  if (metric.size() == 0) return MatrixXd();
+  bool valid = metric.rows() == dimension && metric.cols() == dimension;
+  for (Index i = 0; valid && i < dimension; ++i)
+    for (Index j = 0; j < i; ++j)
+      valid = valid && std::abs(metric(i, j) - metric(j, i)) <= 1e-12 * std::abs(metric(i, i) + metric(j, j));
+  if (valid) {
+    const Cholesky cholesky(metric);
+    if (cholesky.succeeded()) return MatrixXd(cholesky.factor().triangularView<Eigen::Lower>().transpose());
+  }
+  return option_error({"The metric is not a symmetric, positive definite ", dimension, "×", dimension, " matrix."},
+                      {"Give the inverse of a covariance matrix, or leave it out for Euclidean distances."});
+}
+
 Result<RadialBasis> RadialBasis::create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options) {
   const Index dimension = points.cols(), k = centers.rows();
   if (auto valid = check_options(options, dimension, k); !valid) return valid.error();
@@ -59,43 +74,31 @@ Result<RadialBasis> RadialBasis::create(const Matrix& points, const Matrix& cent
   basis.kernel_ = options.kernel;
   basis.kernel_.exponent = Kernel::of(options.kernel.kind, 1, dimension, options.order).exponent;
   basis.order_ = options.order;
-  basis.degree_ = options.degree;
   basis.normalized_ = options.normalized;
-  basis.tail_ = polynomial_count(options.degree, dimension);
-  if (auto framed = basis.set_frame(points, options.metric); !framed) return framed.error();
+  auto root = metric_root(options.metric, dimension);
+  if (!root) return root.error();
+  basis.linear_ = std::move(*root);
+  basis.set_frame(points);
   basis.inner_.resize(dimension);
   basis.centers_ = basis.to_inner(centers);
   basis.amplitudes_ = Vector::Ones(k);
   if (auto sized = basis.set_widths(options); !sized) return sized.error();
   if (options.kernel.kind == KernelKind::clamped_plate)
     if (auto inside = basis.set_ball(centers); !inside) return inside.error();
-  if (auto unisolvent = check_unisolvent(basis.to_inner(points), options.degree); !unisolvent) return unisolvent.error();
+  basis.space_ = PolynomialSpace(basis.to_inner(points), options.degree);
+  basis.coordinates_.resize(dimension);
   basis.squared_.resize(k);
   basis.slopes_.resize(k);
   basis.row_.resize(basis.size());
-  basis.polynomials_.resize(dimension, basis.tail_);
+  basis.polynomials_.resize(basis.tail(), dimension);
   basis.block_inner_.resize(block, dimension);
   basis.block_sums_.resize(block, largest_block_outputs);
   return basis;
 }
 
-Result<Done> RadialBasis::set_frame(const Matrix& points, const MatrixXd& metric) {
+void RadialBasis::set_frame(const Matrix& points) {
   const Index d = points.cols();
   center_ = points.colwise().maxCoeff() / 2 + points.colwise().minCoeff() / 2;
-  if (metric.size() != 0) {
-    bool valid = metric.rows() == d && metric.cols() == d;
-    for (Index i = 0; valid && i < d; ++i)
-      for (Index j = 0; j < i; ++j)
-        valid = valid && std::abs(metric(i, j) - metric(j, i)) <= 1e-12 * std::abs(metric(i, i) + metric(j, j));
-    if (valid) {
-      const Cholesky cholesky(metric);
-      valid = cholesky.succeeded();
-      if (valid) linear_ = cholesky.factor().triangularView<Eigen::Lower>().transpose();
-    }
-    if (!valid)
-      return option_error({"The metric is not a symmetric, positive definite ", d, "×", d, " matrix."},
-                          {"Give the inverse of a covariance matrix, or leave it out for Euclidean distances."});
-  }
   Vector lower = Vector::Constant(d, std::numeric_limits<double>::infinity()), upper = -lower, inner(d);
   for (Index i = 0; i < points.rows(); ++i) {
     to_inner(&points(i, 0), inner.data());
@@ -104,7 +107,6 @@ Result<Done> RadialBasis::set_frame(const Matrix& points, const MatrixXd& metric
   }
   const double diagonal = safe_norm(upper - lower);
   scale_ = diagonal > 0 ? 1 / diagonal : 1;
-  return Done{};
 }
 
 Result<Done> RadialBasis::set_widths(const RadialBasisOptions& options) {
@@ -170,6 +172,11 @@ Matrix RadialBasis::to_inner(const Matrix& points) const {
   return inner;
 }
 
+void RadialBasis::polynomials(const double* inner, double* out) {
+  space_.coordinates(inner, coordinates_.data());
+  space_.values(coordinates_.data(), out);
+}
+
 double RadialBasis::plate_margin(const double* inner) const {
   double squared = 0;
   for (Index axis = 0; axis < dimension(); ++axis) squared += inner[axis] * inner[axis];
@@ -210,6 +217,15 @@ void RadialBasis::kernels_from(Index first, const double* query, double* out) {
   kernels_of_distances(first, out);
 }
 
+/** The limit of the quotients where inner_ is reached by no kernel, while all widen alike: 1 for the nearest center in terms of its
+ * width, or shared evenly by several. (So far away that squares of distances overflow, all are equally near.) */
+void RadialBasis::nearest_alone(double* out) {
+  squared_distances();
+  const double nearest = squared_.minCoeff();
+  const auto share = static_cast<double>((squared_.array() == nearest).count());
+  for (Index i = 0; i < centers(); ++i) out[i] = squared_[i] == nearest ? 1 / share : 0;
+}
+
 void RadialBasis::values(const double* query, double* out) {
   const Index k = centers();
   to_inner(query, inner_.data());
@@ -220,9 +236,12 @@ void RadialBasis::values(const double* query, double* out) {
   if (normalized_) {
     double sum = 0;
     for (Index i = 0; i < k; ++i) sum += out[i];
-    for (Index i = 0; i < k; ++i) out[i] = sum != 0 ? out[i] / sum : 0;  // 0 beyond the support of compact kernels
+    if (sum != 0 && std::isfinite(sum))
+      for (Index i = 0; i < k; ++i) out[i] /= sum;
+    else
+      nearest_alone(out);
   }
-  polynomial_values(inner_.data(), dimension(), degree_, out + k);
+  polynomials(inner_.data(), out + k);
 }
 
 void RadialBasis::gradients(const double* query, double* out) {
@@ -260,12 +279,14 @@ void RadialBasis::gradients(const double* query, double* out) {
     for (Index axis = 0; axis < d; ++axis) {
       double total = 0;
       for (Index i = 0; i < k; ++i) total += out[axis * n + i];
-      for (Index i = 0; i < k; ++i) out[axis * n + i] = sum != 0 ? (out[axis * n + i] - row_[i] * total) / sum : 0;
+      for (Index i = 0; i < k; ++i)
+        out[axis * n + i] = sum != 0 && std::isfinite(sum) ? (out[axis * n + i] - row_[i] * total) / sum : 0;
     }
   }
-  polynomial_gradients(inner_.data(), d, degree_, polynomials_.data());
-  for (Index j = 0; j < tail_; ++j)
-    for (Index axis = 0; axis < d; ++axis) out[axis * n + k + j] = polynomials_(axis, j);
+  space_.coordinates(inner_.data(), coordinates_.data());
+  space_.gradients(coordinates_.data(), polynomials_.data());
+  for (Index j = 0; j < tail(); ++j)
+    for (Index axis = 0; axis < d; ++axis) out[axis * n + k + j] = polynomials_(j, axis);
   // Back to the caller's axes: y = scale · Lᵀ(x − center), so ∇ₓ = scale · L ∇ᵧ, the last axis first, which no other needs.
   Eigen::Map<MatrixXd> all(out, n, d);
   all *= scale_;
@@ -292,9 +313,9 @@ void RadialBasis::combine(const MatrixXd& coefficients, const double* queries, I
     for (Index q = 0; q < width; ++q) {
       to_inner(queries + (first + q) * d, inner_.data());
       inner.row(q) = inner_.transpose();
-      polynomial_values(inner_.data(), d, degree_, row_.data());
+      polynomials(inner_.data(), row_.data());
       Eigen::Map<Vector> sum(out + (first + q) * m, m);
-      multiply(coefficients.rightCols(tail_), row_.head(tail_), sum);
+      multiply(coefficients.rightCols(tail()), row_.head(tail()), sum);
       sums.row(q) = sum.transpose();
     }
     for (Index i = 0; i < k; ++i) {

@@ -4,7 +4,8 @@
 //   φᵢ(x) = aᵢ φ(‖x − cᵢ‖/hᵢ),  i < k,   then   p₁(x), p₂(x), …
 //
 // `normalized` divides the kernels by their sum (course §4.4.1): constants are then in the span without a tail, and the values stay
-// bounded far away. With a `metric` M distances are Mahalanobis's, ‖x‖² = xᵀMx (course §4.4).
+// bounded far away. Where no kernel reaches (beyond the supports of compact ones, or where all underflow) the nearest center's
+// counts alone, as it does in the limit of wider ones. With a `metric` M distances are Mahalanobis's, ‖x‖² = xᵀMx (course §4.4).
 //
 // Internally, coordinates are moved and scaled to a bounding box with a unit diagonal, y = scale · Lᵀ(x − center) with M = LLᵀ.
 // This changes the conditioning and not the functions: widths are scaled along; homogeneous kernels change by the factor
@@ -12,6 +13,7 @@
 #pragma once
 
 #include "core/errors/result.hpp"
+#include "core/interpolation/polynomial_space.hpp"
 #include "core/kernels/kernel.hpp"
 #include "core/numerics/types.hpp"
 
@@ -28,21 +30,25 @@ struct RadialBasisOptions {
   // widths give a regular matrix.
   Vector widths = {};
 
-  MatrixXd metric = {};  // d×d, symmetric and positive definite, or empty for Euclidean distances
+  MatrixXd metric = {};  // d×d, symmetric and positive definite, or empty for Euclidean distances; Rbf evens out axes then
 };
+
+/** Lᵀ of M = LLᵀ, whose distances are those of Lᵀx; empty for an empty `metric`. Fails with INVALID_OPTION where it is not a metric
+ * of `dimension` dimensions. */
+Result<MatrixXd> metric_root(const MatrixXd& metric, Index dimension);
 
 class RadialBasis {
  public:
-  /** `points` (n×d) decide scale and origin; `centers` k×d. Fails with INVALID_OPTION, POINTS_TOO_FEW or POINTS_DEGENERATE (the
-   * points do not determine the polynomials, e.g. on one line for degree 1), or POINTS_OUTSIDE of the clamped plate's ball. */
+  /** `points` (n×d) decide scale, origin and which polynomials there are (polynomial_space.hpp); `centers` k×d. Fails with
+   * INVALID_OPTION. */
   static Result<RadialBasis> create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options);
 
   Index centers() const { return centers_.rows(); }
-  Index tail() const { return tail_; }
-  Index size() const { return centers() + tail_; }
+  Index tail() const { return space_.size(); }
+  Index size() const { return centers() + tail(); }
   Index dimension() const { return center_.size(); }
   const Kernel& kernel() const { return kernel_; }
-  int degree() const { return degree_; }
+  int degree() const { return space_.degree(); }
   bool normalized() const { return normalized_; }
   /** Whether the kernels' matrix at their own centers is symmetric. */
   bool symmetric() const { return !normalized_ && !own_widths_; }
@@ -56,8 +62,11 @@ class RadialBasis {
    * tension a factor that makes its values about 1. */
   double amplitude_of_scale() const { return amplitude_of_scale_; }
 
-  /** Points (n×d) in inner coordinates, where the polynomials are monomials. */
+  /** Points (n×d) in inner coordinates. */
   Matrix to_inner(const Matrix& points) const;
+
+  /** The polynomials (tail()) at a place in inner coordinates (d). */
+  void polynomials(const double* inner, double* out);
 
   /** All functions (size()) at `query` (d, the caller's coordinates). Allocates nothing. */
   void values(const double* query, double* out);
@@ -77,18 +86,19 @@ class RadialBasis {
   static constexpr Index largest_block_outputs = 8;
 
   RadialBasis() = default;
-  Result<Done> set_frame(const Matrix& points, const MatrixXd& metric);
+  void set_frame(const Matrix& points);
   Result<Done> set_widths(const RadialBasisOptions& options);
   Result<Done> set_ball(const Matrix& points);
   void to_inner(const double* query, double* inner) const;
   void squared_distances(Index first = 0);
   void kernels_of_distances(Index first, double* out);
   double plate_margin(const double* inner) const;
+  void nearest_alone(double* out);
 
   Kernel kernel_;
-  int order_ = 2, degree_ = -1;
+  int order_ = 2;
   bool normalized_ = false, own_widths_ = false;
-  Index tail_ = 0;
+  PolynomialSpace space_;
   Vector center_;    // d, the caller's coordinates
   MatrixXd linear_;  // d×d: Lᵀ, or empty
   double scale_ = 1, amplitude_of_scale_ = 1;
@@ -98,8 +108,8 @@ class RadialBasis {
   Vector amplitudes_;       // k: aᵢ
   Vector plate_margins_;    // k: 1 − ‖c‖² in the ball, of the clamped plate
   // Scratch.
-  Vector inner_, squared_, slopes_, row_;
-  MatrixXd polynomials_;
+  Vector inner_, squared_, slopes_, row_, coordinates_;
+  Matrix polynomials_;
   Eigen::Array<double, block, Eigen::Dynamic> block_inner_, block_sums_;
 };
 

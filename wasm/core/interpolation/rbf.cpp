@@ -64,6 +64,28 @@ Error kernel_error(RadialBasis& basis, const Matrix& points) {
 
 }  // namespace
 
+Result<ScatteredData> check_in_metric(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
+                                      MatrixXd& metric, Coincident coincident) {
+  const Index d = points.cols();
+  if (metric.size() == 0) {
+    auto data = check_data(points, values, coincident);
+    if (!data) return data;
+    auto measures = comparable_axes(data->points);
+    if (!measures) return measures.error();
+    if (measures->size() != 0) metric = measures->cwiseAbs2().asDiagonal();
+    return data;
+  }
+  const auto root = metric_root(metric, d);
+  if (!root) return root.error();
+  Matrix places(points.rows(), d);
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index row = 0; row < d; ++row) {
+      places(i, row) = 0;
+      for (Index axis = row; axis < d; ++axis) places(i, row) += (*root)(row, axis) * points(i, axis);
+    }
+  return check_data(points, values, coincident, &places);
+}
+
 Result<Done> check_size(double points, double centers, double polynomials) {
   const double size = centers + polynomials;
   const double bytes = 8 * size * std::max(size, points);
@@ -81,10 +103,10 @@ Result<Rbf> Rbf::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref
   if (auto fits = check_size(count, center_count > 0 ? center_count : count, tail); !fits) return fits.error();
   if (auto valid = check_options(given, points.rows(), points.cols()); !valid) return valid.error();
   const bool interpolates = given.smoothing == 0 && given.weight_decay == 0 && given.centers.rows() == 0;
-  auto data = check_data(points, values, interpolates ? Coincident::merge : Coincident::keep);
+  RbfOptions options = given;
+  auto data = check_in_metric(points, values, options.basis.metric, interpolates ? Coincident::merge : Coincident::keep);
   if (!data) return data.error();
 
-  RbfOptions options = given;
   if (!options.basis.kernel.has_width()) options.width_choice = WidthChoice::given;
   if (options.width_choice == WidthChoice::spacing) options.basis.kernel.width = spacing_width(data->points, options.basis);
   if (options.width_choice == WidthChoice::leave_one_out) options.basis.kernel.width = leave_one_out_width(*data, options);

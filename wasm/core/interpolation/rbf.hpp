@@ -95,6 +95,11 @@ class Rbf final : public Interpolant {
   Vector slope_;           // as long as there are points or outputs, scratch
 };
 
+/** check_data() in the metric of a fit. An empty one is Euclidean, unless axes need to be made comparable (comparable_axes()): then
+ * it becomes the metric that does so. Fails with INVALID_OPTION for what is not a metric. */
+Result<ScatteredData> check_in_metric(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
+                                      MatrixXd& metric, Coincident coincident);
+
 /** The largest dense matrix that is allocated: 1 GiB. */
 constexpr double largest_matrix_bytes = 1073741824.0;
 

@@ -63,6 +63,7 @@ Result<SimplexLinear> SimplexLinear::create(const Eigen::Ref<const Matrix>& poin
                                             OutsideHull outside) {
   auto data = check_data(points, values, Coincident::merge);
   if (!data) return data.error();
+  if (auto compared = compare_axes(*data); !compared) return compared.error();
   Frame frame(*data);
   return SimplexLinear(std::move(*data), outside, std::move(frame));
 }

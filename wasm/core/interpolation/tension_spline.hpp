@@ -18,8 +18,7 @@ struct TensionSplineOptions {
   double smoothing = 0;                   // σ ≥ 0
 };
 
-/** O(n³). Fails with the codes of Rbf::create() and TensionKernel::create(); POINTS_TOO_FEW and POINTS_DEGENERATE where β = γ = 0
- * and the points do not determine a linear function. */
+/** O(n³). Fails with the codes of Rbf::create() and TensionKernel::create(). */
 Result<Rbf> tension_spline(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
                            const TensionSplineOptions& options = {});
 

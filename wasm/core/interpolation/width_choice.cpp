@@ -12,10 +12,11 @@ namespace {
 constexpr Index most_points = 256;
 constexpr double largest_condition = 1e13;
 
-/** The mean of the finite distances to nearest neighbors; 0 where there are none. */
-double mean_spacing(const Matrix& points) {
-  if (points.rows() < 2) return 0;
-  return nearest_distances(points).mean();
+/** Scale and metric of the points alone. Not where the metric is at fault: the real fit will say so. */
+Result<RadialBasis> frame_of(const Matrix& points, const MatrixXd& metric) {
+  RadialBasisOptions options;
+  options.metric = metric;
+  return RadialBasis::create(points, points.topRows(1), options);
 }
 
 /** At most 256 of the points, taken evenly from their order by coordinates: the same ones in whatever order they are given. */
@@ -58,14 +59,17 @@ double leave_one_out_error(const ScatteredData& data, const RbfOptions& options,
 
 }  // namespace
 
+double metric_spacing(const Matrix& points, const MatrixXd& metric) {
+  const auto frame = frame_of(points, metric);
+  return frame && points.rows() > 1 ? nearest_distances(frame->to_inner(points)).mean() / frame->scale() : 0;
+}
+
 double spacing_width(const Matrix& points, const RadialBasisOptions& options) {
   if (options.kernel.kind == KernelKind::custom || points.rows() < 2) return 1;
-  RadialBasisOptions frame_only;
-  frame_only.metric = options.metric;
-  const auto frame = RadialBasis::create(points, points.topRows(1), frame_only);
-  if (!frame) return 1;  // the metric is at fault, and the real fit will say so
-  const Matrix inner = frame->to_inner(points);
   if (options.kernel.kind == KernelKind::clamped_plate) {
+    const auto frame = frame_of(points, options.metric);
+    if (!frame) return 1;
+    const Matrix inner = frame->to_inner(points);
     const double radius = std::sqrt(inner.rowwise().squaredNorm().maxCoeff()) / frame->scale();
     return radius > 0 ? 1.5 * radius : 1;
   }
@@ -83,7 +87,7 @@ double spacing_width(const Matrix& points, const RadialBasisOptions& options) {
     default:
       break;
   }
-  const double spacing = mean_spacing(inner) / frame->scale();
+  const double spacing = metric_spacing(points, options.metric);
   return spacing > 0 ? factor * spacing : 1;
 }
 

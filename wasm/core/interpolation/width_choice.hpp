@@ -5,6 +5,9 @@
 
 namespace handlebody {
 
+/** The mean distance of the points to their nearest neighbors in a metric (or empty); 0 where there is none. */
+double metric_spacing(const Matrix& points, const MatrixXd& metric);
+
 /** A multiple of the points' mean spacing: wide enough to be smooth between points, narrow enough to be well conditioned. 2 for the
  * Gaussian, the inverse multiquadric, the inverse quadratic and the compact inverse multiquadric, 1 for the multiquadric, 5 (the
  * radius of its support) for Wendland's and Buhmann's; for the clamped plate 1.5 times the radius of the points around their

@@ -11,8 +11,7 @@ namespace handlebody {
 
 namespace {
 
-constexpr double coincident = 1e-9;  // of the diagonal
-constexpr double reach = 1000;       // diagonals
+constexpr double reach = 1000;  // diagonals
 constexpr double largest_cardinal_error = 1e-6;
 
 /** Width as a part of the distance to the nearest neighbor: see PoseSpaceOptions. */
@@ -34,16 +33,16 @@ double diagonal_of(const Eigen::Ref<const Matrix>& places) {
 }
 
 /** Distance of every place to its nearest neighbor, or EXAMPLE_DUPLICATE. */
-Result<Vector> spacing_of(const Eigen::Ref<const Matrix>& places) {
+Result<Vector> spacing_of(const Matrix& places) {
   const Index count = places.rows();
-  const double tolerance = coincident * diagonal_of(places);
+  const Vector tolerances = place_tolerances(places);
   Vector spacing = Vector::Constant(count, std::numeric_limits<double>::infinity());
   Vector apart(places.cols());
   for (Index i = 1; i < count; ++i) {
     for (Index j = 0; j < i; ++j) {
       apart = places.row(i) - places.row(j);
       const double distance = safe_norm(apart);
-      if (distance <= tolerance)
+      if (at_one_place(&places(i, 0), &places(j, 0), tolerances))
         return Error(HB_ERROR_EXAMPLE_DUPLICATE, {"Example ", i, " is at the same place as example ", j, "."},
                      {"Move one of the two, or remove it."}, HB_CULPRIT_EXAMPLE, i);
       spacing[i] = std::min(spacing[i], distance);
@@ -72,7 +71,7 @@ Error as_examples(const Error& error) {
 
 /** Equations that are singular in double precision still give some answer, so the cardinal property itself is tested: weight 1 at
  * an example's own place, 0 at the others'. */
-Result<Done> check_cardinal(Rbf& rbf, const Eigen::Ref<const Matrix>& places) {
+Result<Done> check_cardinal(Rbf& rbf, const Matrix& places) {
   Vector weights(places.rows()), place(places.cols());
   for (Index i = 0; i < places.rows(); ++i) {
     place = places.row(i).transpose();
@@ -91,18 +90,21 @@ Result<Done> check_cardinal(Rbf& rbf, const Eigen::Ref<const Matrix>& places) {
 
 }  // namespace
 
-Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options) {
-  const Index count = places.rows();
-  if (count == 0 || places.cols() == 0)
+Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& given, const PoseSpaceOptions& options) {
+  const Index count = given.rows();
+  if (count == 0 || given.cols() == 0)
     return Error(HB_ERROR_EXAMPLES_TOO_FEW, {"A pose space needs at least one example."},
                  {"Give one or more examples with a place."});
   for (Index i = 0; i < count; ++i)
-    if (!places.row(i).allFinite())
+    if (!given.row(i).allFinite())
       return Error(HB_ERROR_EXAMPLE_NOT_FINITE, {"The place of example ", i, " is not finite."},
                    {"Remove NaN and infinite coordinates."}, HB_CULPRIT_EXAMPLE, i);
   if (!(options.width >= 0) || !std::isfinite(options.width))
     return Error(HB_ERROR_INVALID_OPTION, {"The width is not a positive finite number."},
                  {"Give it in units of the places, or leave it out to have it chosen."}, HB_CULPRIT_OPTION, -1);
+  auto measures = comparable_axes(given);
+  if (!measures) return as_examples(measures.error());
+  const Matrix places = measured(given, *measures);
   const bool normalized = options.method == PoseSpaceMethod::normalized;
   if (options.degree < (normalized ? -1 : 0) || options.degree > 1)
     return Error(HB_ERROR_INVALID_OPTION, {"The degree is not 0 or 1."},
@@ -127,26 +129,27 @@ Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, cons
   auto interpolant = Rbf::create(places, Matrix::Zero(count, 1), rbf);
   if (!interpolant) return as_examples(interpolant.error());
   if (auto cardinal = check_cardinal(*interpolant, places); !cardinal) return cardinal.error();
-  return PoseSpace(std::move(*interpolant), places);
+  return PoseSpace(std::move(*interpolant), places, std::move(*measures));
 }
 
-PoseSpace::PoseSpace(Rbf rbf, const Eigen::Ref<const Matrix>& places)
+PoseSpace::PoseSpace(Rbf rbf, const Matrix& places, Vector measures)
     : rbf_(std::move(rbf)),
+      measures_(std::move(measures)),
       center_(places.colwise().maxCoeff() / 2 + places.colwise().minCoeff() / 2),
       reach_(reach * std::max(diagonal_of(places), std::numeric_limits<double>::min())),
-      query_(places.cols()) {}
+      query_(places.cols()),
+      offset_(places.cols()) {}
 
 Result<Done> PoseSpace::weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out) {
   for (Index k = 0; k < query.size(); ++k)
     if (!std::isfinite(query[k]))
       return Error(HB_ERROR_QUERY_NOT_FINITE, {"Coordinate ", k, " of the query is not finite."},
                    {"Ask for weights at finite coordinates."});
-  query_ = query / 2 - center_ / 2;
-  const double half_distance = safe_norm(query_);
-  if (half_distance > reach_ / 2)
-    query_ = center_ + query_ * (reach_ / half_distance);
-  else
-    query_ = query;
+  query_ = query;
+  for (Index k = 0; k < measures_.size(); ++k) query_[k] = std::clamp(query_[k] * measures_[k], -1e300, 1e300);
+  offset_ = query_ / 2 - center_ / 2;
+  const double half_distance = safe_norm(offset_);
+  if (half_distance > reach_ / 2) query_ = center_ + offset_ * (reach_ / half_distance);
   rbf_.weights(query_.data(), out.data());
   return Done{};
 }

@@ -51,11 +51,11 @@ struct PoseSpaceOptions {
 
 class PoseSpace {
  public:
-  /** `places` n×d. A single example has weight 1 everywhere, whatever the options.
+  /** `places` n×d. Distances are Euclidean, except that no axis counts as shorter than a thousandth of the longest
+   * (comparable_axes()). A single example has weight 1 everywhere, whatever the options.
    *
-   * Fails with EXAMPLES_TOO_FEW, EXAMPLE_NOT_FINITE, EXAMPLE_DUPLICATE (two places closer than 1e-9 of the bounding box's diagonal:
-   * the later is the culprit, the message holds both numbers), EXAMPLES_DEGENERATE (degree 1 and places on a line or plane; or
-   * a singular system, see Rbf) and INVALID_OPTION. */
+   * Fails with EXAMPLES_TOO_FEW, EXAMPLE_NOT_FINITE, EXAMPLE_DUPLICATE (two places closer than 1e-9 of the extent on every axis:
+   * the later is the culprit, the message holds both numbers), EXAMPLES_DEGENERATE (a singular system) and INVALID_OPTION. */
   static Result<PoseSpace> create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options = {});
 
   Index size() const { return rbf_.size(); }
@@ -67,12 +67,14 @@ class PoseSpace {
   Result<Done> weights(const Eigen::Ref<const Vector>& query, Eigen::Ref<Vector> out);
 
  private:
-  PoseSpace(Rbf rbf, const Eigen::Ref<const Matrix>& places);
+  PoseSpace(Rbf rbf, const Matrix& places, Vector measures);
 
   Rbf rbf_;
+  Vector measures_;   // d: of the axes, or empty
   Vector center_;     // d
   double reach_ = 0;  // 1000 diagonals
   Vector query_;      // d: scratch
+  Vector offset_;     // likewise
 };
 
 }  // namespace handlebody
