@@ -61,6 +61,6 @@ describe('the clamped plate', () => {
     const order = errorOf(() =>
       hb.rbf({ dimension: 4, points: Array(8).fill(0), values: [0, 0], kernel: 'clamped-plate', order: 2 }),
     );
-    expect(order.remedy).toContain('use 3');
+    expect(order.remedy).toContain('use order 3');
   });
 });

@@ -60,6 +60,8 @@ it('says what it passes over, and with --strict refuses it', async () => {
   writeFileSync(bench.at('odd.obj'), `vn nan 0 0\nhello\nhello\n${obj(bar)}f 1 2\nv nan 0 0\n`);
   const { warnings, bounds } = await bench.json('inspect', 'odd.obj');
   expect(bounds).toEqual(BOX);
+  const corners = `${BOX.low.join(', ')} to ${BOX.high.join(', ')}`;
+  expect((await bench.run('inspect', 'odd.obj')).stdout).toMatch(new RegExp(`bounds +${corners.replaceAll('.', '\\.')}\\n`));
   expect(warnings).toMatchObject([
     { code: 'normals-bad', message: /^1 / },
     { code: 'statements-unknown', message: /^2 / },

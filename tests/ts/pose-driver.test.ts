@@ -47,6 +47,30 @@ describe('poseDriver', () => {
     expect([...driver.weights].map((x) => Math.round(1e6 * x) / 1e6 + 0)).toEqual([0, 0, 1]);
   });
 
+  it('measures each dimension by its scale', () => {
+    const mesh = face('frown', 'smile', 'blink');
+    const dimensions = [
+      { name: 'valence', min: -1, max: 1 },
+      { name: 'turn', min: -180, max: 180, scale: 90 },
+    ];
+    const places = [
+      [-1, 0],
+      [0, 120],
+      [1, -60],
+    ] as const;
+    const examples = space().examples.map((example, k) => ({ ...example, at: [...(places[k] ?? [])] }));
+    using driver = poseDriver(hb, { meshes: [mesh], dimensions, examples });
+    using even = hb.poseSpace({
+      dimensions: ['valence', 'turn'],
+      examples: places.map(([x, y], k) => ({ name: `${k}`, at: [x, y / 90], shape: [k] })),
+    });
+    driver.set([0.3, 45]);
+    const expected = even.weights([0.3, 0.5]);
+    expected.forEach((weight, k) => {
+      expect(driver.weights[k]).toBeCloseTo(weight, 12);
+    });
+  });
+
   it('keeps the influences of targets that no example moves', () => {
     const mesh = face('frown', 'smile', 'blink');
     using driver = poseDriver(hb, space(mesh));

@@ -54,7 +54,7 @@ describe('fewer centers than points', () => {
     const few = { ...base, points: [0, 1], values: [0, 1] };
     expect(errorOf(() => hb.rbf(few)).code).toBe('points-too-few');
     hb.rbf({ ...few, weightDecay: 0.1 }).dispose();
-    expect(errorOf(() => hb.rbf({ ...base, values: clean, smoothing: 0.1 })).remedy).toContain('weight decay');
+    expect(errorOf(() => hb.rbf({ ...base, values: clean, smoothing: 0.1 })).remedy).toContain('weightDecay');
     expect(errorOf(() => hb.rbf({ ...base, values: clean, centers: [0, Number.NaN] })).culprit).toEqual({
       kind: 'center',
       index: 1,

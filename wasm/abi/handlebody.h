@@ -299,8 +299,9 @@ typedef struct hb_rbf_report {
   double spacing;   /* mean distance of a point to its nearest neighbor; 0 for a single point */
   double least_width;
   double largest_width;
-  double suggested_width; /* where ill conditioned: a well conditioned width, and smoothing; 0 where there is none */
+  double suggested_width; /* where ill conditioned, far off the points or narrow: a width, smoothing and weight decay that help; else 0 */
   double suggested_smoothing;
+  double suggested_decay;
   uint32_t center_count;
   uint32_t near_count; /* pairs of points closer than a thousandth of the spacing, at most 8 of them listed */
   uint32_t near_pairs[16];

@@ -96,6 +96,7 @@ int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* out) {
   report.largest_width = from.largest_width;
   report.suggested_width = from.suggested_width;
   report.suggested_smoothing = from.suggested_smoothing;
+  report.suggested_decay = from.suggested_decay;
   report.center_count = static_cast<uint32_t>(rbf.kernel_coefficients().rows());
   list_near_pairs(rbf, from.spacing, report);
   *out = report;

@@ -48,8 +48,8 @@ export interface RbfOptions extends ScatteredData {
   readonly robust?: 'least-absolute' | 'least-median';
   /**
    * M of a Mahalanobis distance r² = xᵀMx, dimension × dimension, symmetric and positive definite. Left out, distances are Euclidean, but an
-   * axis on which the points span less than a thousandth of the longest counts as spanning a thousandth, with a warning: so axes in units
-   * that have nothing in common are kept apart.
+   * axis on which the points span less than a thousandth of the longest counts as spanning a thousandth, with a warning (the identity keeps plain
+   * distances): so axes in units that have nothing in common are kept apart.
    */
   readonly metric?: Numbers;
   /** Order of the kernels 'polyharmonic' and 'clamped-plate', more than half the dimension: 2 is biharmonic, 3 triharmonic. */

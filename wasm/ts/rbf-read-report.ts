@@ -19,7 +19,8 @@ export function readReport(heap: Heap, handle: number, { kernel, degree, options
   });
   const number = (name: 'condition' | 'residual' | 'spacing' | 'least_width' | 'largest_width') =>
     numbers[layout[name] / 8] as number;
-  const suggestion = (name: 'suggested_width' | 'suggested_smoothing') => numbers[layout[name] / 8] || undefined;
+  const suggestion = (name: 'suggested_width' | 'suggested_smoothing' | 'suggested_decay') =>
+    numbers[layout[name] / 8] || undefined;
   const nearCount = counts[1] as number;
   const pairs = Array.from(
     { length: Math.min(nearCount, 8) },
@@ -42,6 +43,7 @@ export function readReport(heap: Heap, handle: number, { kernel, degree, options
     pairs,
     suggestedWidth: suggestion('suggested_width'),
     suggestedSmoothing: suggestion('suggested_smoothing'),
+    suggestedDecay: suggestion('suggested_decay'),
   });
   return { ...base, warnings };
 }

@@ -34,7 +34,13 @@ export interface RbfWarning {
   /** The points concerned, where there are any. */
   readonly points?: readonly number[];
   /** Options that would do better. */
-  readonly suggestion?: { readonly width?: number; readonly smoothing?: number; readonly metric?: readonly number[] };
+  readonly suggestion?: {
+    readonly width?: number;
+    readonly smoothing?: number;
+    readonly weightDecay?: number;
+    readonly normalized?: true;
+    readonly metric?: readonly number[];
+  };
 }
 
 /** Prints a warning where no `onWarning` was given. */

@@ -12,6 +12,7 @@ export interface WarningFacts {
   readonly pairs: readonly (readonly [number, number])[];
   readonly suggestedWidth: number | undefined;
   readonly suggestedSmoothing: number | undefined;
+  readonly suggestedDecay: number | undefined;
 }
 
 /** From here on fewer than four digits are safe. */
@@ -35,32 +36,38 @@ export function warningsOf(report: Omit<RbfReport, 'warnings'>, facts: WarningFa
 
 type Check = (report: Omit<RbfReport, 'warnings'>, facts: WarningFacts) => RbfWarning[];
 
-const illConditioned: Check = ({ condition, width, spacing, kernel }, { options, suggestedWidth, suggestedSmoothing }) => {
+/** What the solver found to help, in words and as options. None leads to a warning of another kind. */
+function helpOf(
+  { spacing, kernel }: Pick<RbfReport, 'spacing' | 'kernel'>,
+  facts: WarningFacts,
+): Pick<RbfWarning, 'remedy' | 'suggestion'> {
+  const { suggestedWidth, suggestedSmoothing, suggestedDecay } = facts;
+  const width = suggestedWidth && roundDown(suggestedWidth);
+  const wide = width && !(fades(kernel, facts) && width < NARROW * spacing) ? { width } : {};
+  const smoothing = suggestedSmoothing ? { smoothing: Number(suggestedSmoothing.toPrecision(2)) } : {};
+  const weightDecay = suggestedDecay ? { weightDecay: Number(suggestedDecay.toPrecision(2)) } : {};
+  const suggestion = { ...wide, ...smoothing, ...weightDecay };
+  const words = Object.entries(suggestion).map(
+    ([name, value]) => `${name === 'width' ? 'a width ≤' : `${name} ≥`} ${plain(value)}`,
+  );
+  return words.length ? { remedy: `Try ${words.join(' or ')}.`, suggestion } : { remedy: 'Try another kernel, or fewer centers.' };
+}
+
+const illConditioned: Check = (report, facts) => {
+  const { condition, width, spacing, kernel } = report;
   if (condition <= ILL_CONDITIONED) return [];
   const power = Number.isFinite(condition) ? `1e${Math.round(Math.log10(condition))}` : 'infinite';
-  const wide = hasWidth(kernel) && spacing > 0 && typeof options.width !== 'object';
+  const wide = hasWidth(kernel) && spacing > 0 && typeof facts.options.width !== 'object';
   const subject = wide
     ? `Width ${short(width)} is ${short(width / spacing)} × the mean spacing`
     : 'The equations are close to singular';
-  const remedies = [
-    ...(suggestedWidth ? [`a width ≤ ${short(suggestedWidth)}`] : []),
-    ...(suggestedSmoothing ? [`smoothing ≥ ${suggestedSmoothing.toExponential(0).replace('e-0', 'e-')}`] : []),
-  ];
-  const width2 = suggestedWidth ? { width: roundDown(suggestedWidth) } : {};
-  const smoothing = suggestedSmoothing ? { smoothing: Number(suggestedSmoothing.toPrecision(2)) } : {};
-  return [
-    {
-      code: 'ill-conditioned',
-      message: `${subject}: condition ${power}.`,
-      remedy: remedies.length ? `Try ${remedies.join(' or ')}.` : 'Try weight decay, or fewer centers.',
-      ...(remedies.length && { suggestion: { ...width2, ...smoothing } }),
-    },
-  ];
+  return [{ code: 'ill-conditioned', message: `${subject}: condition ${power}.`, ...helpOf(report, facts) }];
 };
 
-const missesPoints: Check = ({ kernel, residual, centers }, { options }) => {
-  const interpolates = !options.smoothing && !options.weightDecay && !options.centers;
-  if (!interpolates) return [];
+const missesPoints: Check = (report, facts) => {
+  const { residual, centers } = report;
+  const { options } = facts;
+  if (!interpolates(options)) return [];
   let largest = 0;
   for (let i = 0; i < options.values.length; i++) largest = Math.max(largest, Math.abs(options.values[i] ?? 0));
   if (residual <= 1e-6 * largest) return [];
@@ -68,22 +75,19 @@ const missesPoints: Check = ({ kernel, residual, centers }, { options }) => {
     {
       code: 'misses-points',
       message: `The surface misses its ${centers} points by up to ${short(residual)}, which is rounding error.`,
-      remedy:
-        kernel === 'tension'
-          ? 'Try some smoothing, or weights that differ less.'
-          : 'Try a smaller width, another kernel, or some smoothing.',
+      ...helpOf(report, facts),
     },
   ];
 };
 
-const nearDuplicates: Check = ({ spacing }, { nearCount, pairs }) => {
-  if (nearCount === 0) return [];
+const nearDuplicates: Check = ({ spacing }, { nearCount, pairs, options }) => {
+  if (nearCount === 0 || !interpolates(options)) return [];
   const named = pairs.map(([i, j]) => `${i} and ${j}`).join(', ');
   return [
     {
       code: 'near-duplicates',
       message: `${nearCount === 1 ? 'One pair of points is' : `${nearCount} pairs of points are`} closer than a thousandth of the mean spacing ${short(spacing)}: ${named}${nearCount > pairs.length ? ' …' : ''}.`,
-      remedy: 'Remove one of each, or allow smoothing: between them the surface may be steep.',
+      remedy: 'Remove one of each, or give a smoothing above 0: between them the surface may be steep.',
       points: [...new Set(pairs.flat())],
     },
   ];
@@ -103,16 +107,17 @@ const mergedDuplicates: Check = (_, { merged }) => {
   ];
 };
 
-const narrowWidth: Check = ({ width, spacing, kernel }, { options }) => {
-  const fades = hasWidth(kernel) && kernel !== 'multiquadric' && kernel !== 'custom' && kernel !== 'clamped-plate';
-  if (!fades || options.normalized || typeof options.width !== 'number' || !(width < NARROW * spacing)) return [];
-  const suggestion = 2 * spacing;
+const narrowWidth: Check = ({ width, spacing, kernel }, facts) => {
+  const { options, suggestedWidth = 0 } = facts;
+  if (!fades(kernel, facts) || !(width < NARROW * spacing)) return [];
+  const better = Number(suggestedWidth.toPrecision(2));
+  const wider = better >= NARROW * spacing;
   return [
     {
       code: 'narrow-width',
       message: `Width ${short(width)} is ${short(width / spacing)} × the mean spacing: the surface falls back to ${options.degree === -1 || options.degree === undefined || options.degree === 'auto' ? 'zero' : 'the tail'} between points.`,
-      remedy: `Try a width ≥ ${short(suggestion)}.`,
-      suggestion: { width: Number(suggestion.toPrecision(2)) },
+      remedy: wider ? `Try a width of ${plain(better)}.` : 'Try normalized: true, since wider kernels would be ill conditioned.',
+      suggestion: wider ? { width: better } : { normalized: true },
     },
   ];
 };
@@ -124,7 +129,7 @@ const notDefinite: Check = ({ kernel }, { dimension }) => {
     {
       code: 'not-definite',
       message: `No theorem says that the ${kernel} kernel has regular equations in ${dimension} ${dimension === 1 ? 'dimension' : 'dimensions'}.`,
-      remedy: 'Mind the condition number, or use a Wendland kernel, which is positive definite in every dimension.',
+      remedy: 'Mind the condition number, or use wendland-c2, which is positive definite in every dimension.',
     },
   ];
 };
@@ -135,7 +140,7 @@ const unequalWidths: Check = (_, { options }) => {
     {
       code: 'unequal-widths',
       message: 'With a width for each center the matrix is not symmetric, and no theorem says that it is regular.',
-      remedy: 'Mind the condition number.',
+      remedy: 'Mind the condition number, or give a single width.',
     },
   ];
 };
@@ -157,7 +162,7 @@ const unevenAxes: Check = ({ kernel }, { options, dimension }) => {
   if (!(shortest < SHORTEST_AXIS * longest)) return [];
   const metric = new Array<number>(dimension * dimension).fill(0);
   extents.forEach((extent, axis) => {
-    metric[axis * dimension + axis] = Number(((extent || longest) ** -2).toPrecision(3));
+    metric[axis * dimension + axis] = Number(((longest / (extent || longest)) ** 2).toPrecision(3));
   });
   return [
     {
@@ -166,7 +171,7 @@ const unevenAxes: Check = ({ kernel }, { options, dimension }) => {
       remedy:
         kernel === 'tension'
           ? 'Divide the coordinates of each axis by what they span.'
-          : `Give a metric: 1 / extent² on its diagonal evens them out${dimension < 4 ? `, [${metric.join(', ')}]` : ''}, the identity keeps plain distances.`,
+          : `Give a metric: (longest / extent)² on its diagonal evens them out${dimension < 4 ? `, [${metric.join(', ')}]` : ''}.`,
       ...(kernel !== 'tension' && { suggestion: { metric } }),
     },
   ];
@@ -176,10 +181,25 @@ function hasWidth(kernel: RbfReport['kernel']): boolean {
   return kernel === 'custom' || (kernel !== 'tension' && KERNELS[kernel].hasWidth);
 }
 
+/** Whether a width that is too narrow shows: the kernel falls to zero, and nothing else was asked for. */
+function fades(kernel: RbfReport['kernel'], { options }: WarningFacts): boolean {
+  const falls = hasWidth(kernel) && kernel !== 'multiquadric' && kernel !== 'custom' && kernel !== 'clamped-plate';
+  return falls && !options.normalized && typeof options.width === 'number';
+}
+
+function interpolates({ smoothing, weightDecay, centers }: RbfOptions): boolean {
+  return !smoothing && !weightDecay && !centers;
+}
+
 /** Two or three significant digits, as people write them. */
 function short(number: number): string {
   const rounded = Number(number.toPrecision(2));
   return Math.abs(rounded) >= 1e-3 && Math.abs(rounded) < 1e5 ? String(rounded) : rounded.toExponential();
+}
+
+/** A number to be typed in: all that it has. */
+function plain(number: number): string {
+  return Math.abs(number) >= 1e-3 && Math.abs(number) < 1e5 ? String(number) : number.toExponential();
 }
 
 /** Two significant digits, never more than the number. */

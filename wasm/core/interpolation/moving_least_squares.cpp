@@ -46,7 +46,7 @@ Result<MovingLeastSquares> MovingLeastSquares::create(const Eigen::Ref<const Mat
                                                       const MovingLeastSquaresOptions& options) {
   if (auto checked = check_options(options); !checked) return checked.error();
   const bool singular = options.weight == MovingWeight::inverse_distance && options.epsilon == 0;
-  auto data = check_data(points, values, singular ? Coincident::merge : Coincident::keep);
+  auto data = check_data(points, values, singular ? Coincident::merge : Coincident::keep, nullptr, ", or give an epsilon above 0");
   if (!data) return data.error();
   const Index count = polynomial_count(options.degree, points.cols());
   if (static_cast<double>(data->points.rows()) * static_cast<double>(count) > 1 << 26)

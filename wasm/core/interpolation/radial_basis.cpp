@@ -19,16 +19,19 @@ Error option_error(std::initializer_list<Word> message, std::initializer_list<Wo
 
 Result<Done> check_options(const RadialBasisOptions& options, Index dimension, Index centers) {
   const Kernel& kernel = options.kernel;
-  if (options.degree < -1 || options.degree > 2)
-    return option_error({"The degree of the polynomial tail is not -1, 0, 1 or 2."}, {"Use -1, 0, 1 or 2."});
   const bool has_order = kernel.kind == KernelKind::polyharmonic || kernel.kind == KernelKind::clamped_plate;
   if (has_order && (options.order > 8 || 2 * options.order <= dimension))
-    return option_error({"Order ", options.order, " is not possible in ", dimension, " dimensions."},
-                        {"The order of this kernel is more than half the dimension, and 8 at most: use ", dimension / 2 + 1, "."});
+    return dimension < 16 ? option_error({"Order ", options.order, " is not possible in ", dimension, " dimensions."},
+                                         {"The order of this kernel is more than half the dimension, and 8 at most: use order ",
+                                          dimension / 2 + 1, "."})
+                          : option_error({"No order of this kernel is possible in ", dimension, " dimensions."},
+                                         {"Use the kernel cubic or gaussian, which have no order."});
   const int needed = kernel.minimum_degree();
   if (needed > 2)
     return option_error({"This kernel needs a polynomial tail of degree ", needed, ", and 2 is the most there is."},
-                        {"Use a lower order."});
+                        {"Use order ", std::min<Index>(8, (5 + dimension) / 2), ", or less."});
+  if (options.degree < -1 || options.degree > 2)
+    return option_error({"The degree of the polynomial tail is not -1, 0, 1 or 2."}, {"Use degree 2, or leave it out."});
   if (options.normalized && (kernel.vanishes_at_center() || kernel.kind == KernelKind::clamped_plate))
     return option_error({"This kernel is zero at its own place or on a sphere and cannot be normalized."},
                         {"Use gaussian, multiquadric, inverse-multiquadric or inverse-quadratic, or leave out normalized."});
@@ -37,17 +40,19 @@ Result<Done> check_options(const RadialBasisOptions& options, Index dimension, I
                         {"Raise the degree to ", needed, "."});
   if (options.widths.size() != 0 && options.widths.size() != centers)
     return option_error({"There are ", options.widths.size(), " widths for ", centers, " centers."},
-                        {"Give one width a center, or a single one."});
+                        {"Give one width a center, or leave them out."});
   if (options.widths.size() != 0 && kernel.kind == KernelKind::clamped_plate)
-    return option_error({"The clamped plate has one ball for all centers."}, {"Give a single width: the ball's radius."});
+    return option_error({"The clamped plate has one ball for all centers."},
+                        {"Leave out the widths, or give a single one: the ball's radius."});
   const auto valid = [](double width) { return width > 0 && std::isfinite(width); };
   if (options.widths.size() == 0 && !valid(kernel.width))
-    return option_error({"The width is ", kernel.width, ", not a positive finite number."}, {"Give it in units of the points."});
+    return option_error({"The width is ", kernel.width, ", not a positive finite number."},
+                        {"Give it in units of the points, or leave it out."});
   for (Index i = 0; i < options.widths.size(); ++i)
     if (!valid(options.widths[i]))
       return Error(HB_ERROR_INVALID_OPTION,
                    {"The width of center ", i, " is ", options.widths[i], ", not a positive finite number."},
-                   {"Give widths in units of the points."}, HB_CULPRIT_CENTER, i);
+                   {"Give widths in units of the points, or leave them out."}, HB_CULPRIT_CENTER, i);
   return Done{};
 }
 
@@ -64,7 +69,7 @@ Result<MatrixXd> metric_root(const MatrixXd& metric, Index dimension) {
     if (cholesky.succeeded()) return MatrixXd(cholesky.factor().triangularView<Eigen::Lower>().transpose());
   }
   return option_error({"The metric is not a symmetric, positive definite ", dimension, "×", dimension, " matrix."},
-                      {"Give the inverse of a covariance matrix, or leave it out for Euclidean distances."});
+                      {"Give the inverse of a covariance matrix, or leave out metric for Euclidean distances."});
 }
 
 Result<RadialBasis> RadialBasis::create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options) {
@@ -128,7 +133,8 @@ Result<Done> RadialBasis::set_widths(const RadialBasisOptions& options) {
   }
   if (!kernel_.has_width()) return Done{};
   if (!(widths_.minCoeff() >= 1e-30 && widths_.maxCoeff() <= 1e30))
-    return option_error({"A width is out of all proportion to the extent of the points."}, {"Give widths in units of the points."});
+    return option_error({"A width is out of all proportion to the extent of the points."},
+                        {"Give widths in units of the points, or leave them out."});
   for (Index i = 0; i < k; ++i) inverse_squares_[i] = 1 / (widths_[i] * widths_[i]);
   if (own_widths_ && kernel_.kind == KernelKind::multiquadric) amplitudes_ = widths_ / widths_.maxCoeff();
   return Done{};
@@ -143,7 +149,9 @@ Result<Done> RadialBasis::set_ball(const Matrix& points) {
     if (!(plate_margins_[i] > 0))
       return Error(HB_ERROR_INVALID_OPTION,
                    {"Point ", i, " is not inside the clamped plate's ball, whose radius is the width ", kernel_.width, "."},
-                   {"Use a larger width: the ball is centered on the box of the ", points.rows(), " points."}, HB_CULPRIT_POINT, i);
+                   {"Use a width of ", 1.5 * std::sqrt(centers_.rowwise().squaredNorm().maxCoeff()) / scale_,
+                    " or more: the ball is centered on the box of the ", points.rows(), " points."},
+                   HB_CULPRIT_POINT, i);
   }
   return Done{};
 }

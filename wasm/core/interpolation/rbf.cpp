@@ -14,6 +14,11 @@ namespace {
 
 /** From this condition number on the report looks for a remedy. */
 constexpr double ill_condition = 1e12;
+/** A surface that misses its points by more than this part of the largest value is said to. */
+constexpr double miss = 1e-6;
+/** A kernel this narrow, in spacings, is said to be. */
+constexpr double narrow = 0.3;
+constexpr const char* or_smoothing = ", or give a smoothing above 0";
 
 Error option_error(std::initializer_list<Word> message, std::initializer_list<Word> remedy) {
   return {HB_ERROR_INVALID_OPTION, message, remedy, HB_CULPRIT_OPTION};
@@ -24,15 +29,15 @@ Result<Done> check_options(const RbfOptions& options, Index points, Index dimens
   const auto valid = [](double lambda) { return lambda >= 0 && std::isfinite(lambda); };
   if (!valid(options.smoothing) || !valid(options.weight_decay))
     return option_error({"Smoothing or weight decay is not zero or a positive finite number."},
-                        {"Use a small positive number, or 0."});
+                        {"Leave them out, or use a small positive number."});
   if (options.smoothing > 0 && options.weight_decay > 0)
     return option_error({"Both smoothing and weight decay are asked for."}, {"Use one of the two."});
   if (options.robust != RobustMethod::none && centers.rows() == 0)
     return option_error({"A robust fit needs fewer centers than points: with a center at each it would pass through all of them."},
-                        {"Give centers, or look for bad points with findOutliers()."});
+                        {"Give centers, or leave out robust and look for bad points with findOutliers()."});
   if (centers.rows() == 0) return Done{};
   if (options.smoothing > 0)
-    return option_error({"Smoothing needs a center at each point; these are others."}, {"Use weight decay."});
+    return option_error({"Smoothing needs a center at each point; these are others."}, {"Use weightDecay instead of smoothing."});
   if (centers.cols() != dimension)
     return option_error({"The centers have ", centers.cols(), " coordinates, the points ", dimension, "."},
                         {"Give centers in the space of the points."});
@@ -42,7 +47,7 @@ Result<Done> check_options(const RbfOptions& options, Index points, Index dimens
                    HB_CULPRIT_CENTER, i);
   if (centers.rows() > points && options.weight_decay == 0)
     return Error(HB_ERROR_POINTS_TOO_FEW, {points, " points do not determine ", centers.rows(), " centers."},
-                 {"Use at most ", points, " centers, or weight decay."});
+                 {"Use at most ", points, " centers, or a weightDecay above 0."});
   return Done{};
 }
 
@@ -68,7 +73,7 @@ Result<ScatteredData> check_in_metric(const Eigen::Ref<const Matrix>& points, co
                                       MatrixXd& metric, Coincident coincident) {
   const Index d = points.cols();
   if (metric.size() == 0) {
-    auto data = check_data(points, values, coincident);
+    auto data = check_data(points, values, coincident, nullptr, or_smoothing);
     if (!data) return data;
     auto measures = comparable_axes(data->points);
     if (!measures) return measures.error();
@@ -83,7 +88,7 @@ Result<ScatteredData> check_in_metric(const Eigen::Ref<const Matrix>& points, co
       places(i, row) = 0;
       for (Index axis = row; axis < d; ++axis) places(i, row) += (*root)(row, axis) * points(i, axis);
     }
-  return check_data(points, values, coincident, &places);
+  return check_data(points, values, coincident, &places, or_smoothing);
 }
 
 Result<Done> check_size(double points, double centers, double polynomials) {
@@ -121,9 +126,15 @@ Result<Rbf> Rbf::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref
   if (!basis) return basis.error();
   Rbf rbf(std::move(*data), std::move(*basis), options);
   if (!std::isfinite(rbf.fit_->norm())) return kernel_error(rbf.basis_, rbf.data_.points);
-  if (!rbf.coefficients_.allFinite())
-    return Error(HB_ERROR_SYSTEM_SINGULAR, {"The interpolation equations are singular in double precision."},
-                 {"Use a smaller width, another kernel, or some smoothing or weight decay."});
+  if (!rbf.coefficients_.allFinite()) {
+    constexpr hb_status code = HB_ERROR_SYSTEM_SINGULAR;
+    constexpr const char* message = "The interpolation equations are singular in double precision.";
+    const double smoothing = options.advised ? rbf.enough_smoothing() : 0;
+    if (smoothing > 0) return Error(code, {message}, {"Use a smoothing of ", smoothing, " or more."});
+    const double decay = options.advised ? rbf.enough_decay() : 0;
+    if (decay > 0) return Error(code, {message}, {"Use a weightDecay of ", decay, " or more."});
+    return Error(code, {message}, {"Use another kernel, or points that lie farther apart."});
+  }
   return rbf;
 }
 
@@ -242,15 +253,44 @@ RbfReport Rbf::report() {
   report.spacing = n > 1 ? nearest_distances(basis_.to_inner(data_.points)).mean() / basis_.scale() : 0;
   report.least_width = basis_.widths().minCoeff();
   report.largest_width = basis_.widths().maxCoeff();
-  if (report.condition <= ill_condition) return report;
-  if (basis_.kernel().has_width() && basis_.kernel().kind != KernelKind::clamped_plate && options_.basis.widths.size() == 0)
-    report.suggested_width = comfortable_width(data_, options_);
-  // R + λI has a condition number of about ‖R‖/λ.
-  if (options_.centers.rows() == 0 && options_.weight_decay == 0) {
-    const double enough = fit_->norm() / comfortable_condition / basis_.amplitude_of_scale();
-    report.suggested_smoothing = std::exp(std::ceil(std::log(enough) / std::log(10.0)) * std::log(10.0));
+  const bool one_width =
+      basis_.kernel().has_width() && basis_.kernel().kind != KernelKind::clamped_plate && options_.basis.widths.size() == 0;
+  if (report.condition <= ill_condition && report.residual <= miss * data_.values.cwiseAbs().maxCoeff()) {
+    if (!one_width || !(report.least_width < narrow * report.spacing)) return report;
+    RbfOptions wider = options_;
+    wider.basis.kernel.width = 2 * report.spacing;
+    report.suggested_width =
+        well_conditioned(data_, wider, ill_condition / 1e3) ? 2 * report.spacing : comfortable_width(data_, wider);
+    return report;
   }
+  if (one_width) report.suggested_width = comfortable_width(data_, options_);
+  report.suggested_smoothing = enough_smoothing();
+  if (report.suggested_smoothing == 0) report.suggested_decay = enough_decay();
   return report;
+}
+
+/** The first of a few powers of ten from `start` on with which the fit is well conditioned; 0 where none is. */
+double Rbf::enough(double start, double RbfOptions::*option) const {
+  RbfOptions options = options_;
+  if (!std::isfinite(start) || !(start > 0)) return 0;
+  double power = std::ceil(std::log(start) / std::log(10.0) - 1e-9);
+  for (int trial = 0; trial < 8; ++trial, ++power) {
+    options.*option = std::exp(power * std::log(10.0));
+    if (options.*option > options_.*option && well_conditioned(data_, options, ill_condition / 100)) return options.*option;
+  }
+  return 0;
+}
+
+double Rbf::enough_smoothing() const {
+  // R + λI has a condition number of about ‖R‖/λ.
+  if (options_.centers.rows() != 0 || options_.weight_decay != 0) return 0;
+  return enough(fit_->norm() / comfortable_condition / basis_.amplitude_of_scale(), &RbfOptions::smoothing);
+}
+
+double Rbf::enough_decay() const {
+  if (options_.smoothing != 0) return 0;
+  const double root = fit_->norm() / comfortable_condition / basis_.amplitude_of_scale();
+  return enough(root * root, &RbfOptions::weight_decay);
 }
 
 }  // namespace handlebody

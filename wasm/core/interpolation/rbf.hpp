@@ -33,6 +33,7 @@ struct RbfOptions {
   double weight_decay = 0;                   // λ ≥ 0 of eq. (3), in units of the kernel squared
   Matrix centers = {};                       // k×d, or empty for the points themselves
   RobustMethod robust = RobustMethod::none;  // needs fewer centers than points
+  bool advised = true;                       // whether a failure looks for what would help, by further fits
 };
 
 /** How good a fit is. Lengths in units of the points. */
@@ -41,8 +42,9 @@ struct RbfReport {
   double residual = 0;   // largest misfit at a point
   double spacing = 0;    // mean distance of the points to their nearest neighbors; 0 for a single point
   double least_width = 0, largest_width = 0;
-  double suggested_width = 0;      // where ill conditioned: one with a condition number of about comfortable_condition; else 0
-  double suggested_smoothing = 0;  // likewise
+  double suggested_width = 0;      // where ill conditioned, far off its points or narrow: one that is not, by trial; else 0
+  double suggested_smoothing = 0;  // where ill conditioned or far off its points: one that helps, by trial; else 0
+  double suggested_decay = 0;      // likewise a weight decay, where no smoothing helps
 };
 constexpr double comfortable_condition = 1e8;
 
@@ -82,6 +84,9 @@ class Rbf final : public Interpolant {
 
   void weigh(const double* query, double* w, double* slopes) override;
   Matrix fitted();  // n×m, at the points
+  double enough(double start, double RbfOptions::*option) const;
+  double enough_smoothing() const;
+  double enough_decay() const;
   void multiply_gradients(const MatrixXd& coefficients, double* out);
 
   RadialBasis basis_;

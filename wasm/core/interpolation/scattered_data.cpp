@@ -27,7 +27,8 @@ Result<Done> check_finite(const Eigen::Ref<const Matrix>& points, const Eigen::R
 }
 
 /** Fills `twin_of`. Places are compared along the sorted first axis, within the tolerance only. */
-Result<Done> find_twins(const Matrix& places, const Eigen::Ref<const Matrix>& values, std::vector<std::uint32_t>& twin_of) {
+Result<Done> find_twins(const Matrix& places, const Eigen::Ref<const Matrix>& values, const char* else_allow,
+                        std::vector<std::uint32_t>& twin_of) {
   const Vector tolerances = place_tolerances(places);
   const auto by_first_axis = [&](std::uint32_t a, std::uint32_t b) {
     return places(a, 0) != places(b, 0) ? places(a, 0) < places(b, 0) : a < b;
@@ -39,7 +40,7 @@ Result<Done> find_twins(const Matrix& places, const Eigen::Ref<const Matrix>& va
       if (!at_one_place(&places(i, 0), &places(j, 0), tolerances)) continue;
       if ((values.row(i).array() != values.row(j).array()).any())
         return Error(HB_ERROR_POINT_DUPLICATE, {"Point ", j, " is at the same place as point ", i, " but has another value."},
-                     {"Remove one of the two, average them, or allow smoothing."}, HB_CULPRIT_POINT, j);
+                     {"Remove one of the two, or average them", else_allow, "."}, HB_CULPRIT_POINT, j);
       twin_of[j] = std::min(twin_of[j], twin_of[i]);
     }
   }
@@ -100,7 +101,7 @@ Result<Done> compare_axes(ScatteredData& data) {
 }
 
 Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
-                                 Coincident coincident, const Matrix* places) {
+                                 Coincident coincident, const Matrix* places, const char* else_allow) {
   const Index count = points.rows();
   if (count == 0 || points.cols() == 0 || values.cols() == 0)
     return Error(HB_ERROR_POINTS_TOO_FEW, {"There are no points."}, {"Give at least one point with a value."});
@@ -115,7 +116,7 @@ Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const E
   data.twin_of.resize(count);
   std::iota(data.twin_of.begin(), data.twin_of.end(), 0u);
   if (coincident == Coincident::merge)
-    if (auto twins = find_twins(places ? *places : Matrix(points), values, data.twin_of); !twins) return twins.error();
+    if (auto twins = find_twins(places ? *places : Matrix(points), values, else_allow, data.twin_of); !twins) return twins.error();
 
   for (std::uint32_t i = 0; i < data.twin_of.size(); ++i) {
     data.twin_of[i] = data.twin_of[data.twin_of[i]];  // twins of twins: earlier ones are settled

@@ -44,9 +44,10 @@ Matrix measured(const Eigen::Ref<const Matrix>& points, const Vector& measures);
 
 /** Checks `points` (n×d) and `values` (n×m). Fails with POINTS_TOO_FEW (n = 0), POINT_NOT_FINITE, VALUE_NOT_FINITE,
  * POINTS_DEGENERATE (an extent beyond double precision) or POINT_DUPLICATE; the culprit is the point, as given. O(n²d) with
- * `merge`. Which points coincide is judged by `places` (n×d), unless it is null: the points in the metric in use. */
+ * `merge`. Which points coincide is judged by `places` (n×d), unless it is null: the points in the metric in use. `else_allow` is
+ * what the method has that lets points coincide, as the end of a remedy. */
 Result<ScatteredData> check_data(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,
-                                 Coincident coincident, const Matrix* places = nullptr);
+                                 Coincident coincident, const Matrix* places = nullptr, const char* else_allow = "");
 
 /** Makes the axes of checked data comparable: measures, points and diagonal. Fails as comparable_axes() does. */
 Result<Done> compare_axes(ScatteredData& data);

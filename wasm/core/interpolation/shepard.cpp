@@ -23,7 +23,8 @@ Result<Shepard> Shepard::create(const Eigen::Ref<const Matrix>& points, const Ei
   if (!(options.epsilon >= 0) || !std::isfinite(options.epsilon))
     return Error(HB_ERROR_INVALID_OPTION, {"Epsilon is ", options.epsilon, ", which is not zero or a positive finite number."},
                  {"Use 0 to interpolate, or a small part of the points' spacing."}, HB_CULPRIT_OPTION);
-  auto data = check_data(points, values, options.epsilon > 0 ? Coincident::keep : Coincident::merge);
+  auto data = check_data(points, values, options.epsilon > 0 ? Coincident::keep : Coincident::merge, nullptr,
+                         ", or give an epsilon above 0");
   if (!data) return data.error();
   return Shepard(std::move(*data), options);
 }

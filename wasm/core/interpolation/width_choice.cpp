@@ -42,6 +42,7 @@ ScatteredData thinned(const ScatteredData& data) {
 
 Result<Rbf> fit_with(const ScatteredData& data, RbfOptions options, double width) {
   options.width_choice = WidthChoice::given;
+  options.advised = false;
   options.basis.kernel.width = width;
   return Rbf::create(data.points, data.values, options);
 }
@@ -127,6 +128,15 @@ double leave_one_out_width(const ScatteredData& data, const RbfOptions& options)
   }
   const double refined = error_low <= error_high ? inner_low : inner_high;
   return start * std::exp(std::min(error_low, error_high) < least ? refined : best);
+}
+
+bool well_conditioned(const ScatteredData& data, const RbfOptions& options, double limit) {
+  const ScatteredData some = thinned(data);
+  RbfOptions few = options;
+  if (few.basis.widths.size() > some.points.rows() && few.centers.rows() == 0)
+    few.basis.widths = few.basis.widths.head(some.points.rows()).eval();
+  const auto rbf = fit_with(some, few, options.basis.kernel.width);
+  return rbf && rbf->fit().condition() <= limit;
 }
 
 double comfortable_width(const ScatteredData& data, const RbfOptions& options) {

@@ -19,6 +19,9 @@ double spacing_width(const Matrix& points, const RadialBasisOptions& options);
  * them decide. */
 double leave_one_out_width(const ScatteredData& data, const RbfOptions& options);
 
+/** Whether a fit of at most 256 of the points, spread over them, has a condition number of at most `limit`. */
+bool well_conditioned(const ScatteredData& data, const RbfOptions& options, double limit);
+
 /** The largest width below the given one whose fit has a condition number of at most comfortable_condition; 0 where there is none
  * down to e⁻¹² of it. */
 double comfortable_width(const ScatteredData& data, const RbfOptions& options);

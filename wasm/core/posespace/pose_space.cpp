@@ -82,15 +82,30 @@ Result<Done> check_cardinal(Rbf& rbf, const Matrix& places) {
       return Error(HB_ERROR_EXAMPLES_DEGENERATE,
                    {"The interpolation system is singular in double precision (condition number ", rbf.fit().condition(),
                     "); it misses example ", i, " by ", error, "."},
-                   {"Use a smaller width, move examples apart that almost coincide, or choose another kernel."}, HB_CULPRIT_EXAMPLE,
-                   i);
+                   {"Move examples apart that almost coincide."}, HB_CULPRIT_EXAMPLE, i);
   }
   return Done{};
 }
 
 }  // namespace
 
-Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& given, const PoseSpaceOptions& options) {
+Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options) {
+  auto made = attempt(places, options);
+  if (made || made.error().code != HB_ERROR_EXAMPLES_DEGENERATE) return made;
+  // What would do is found by trying it.
+  const Error& error = made.error();
+  const auto advise = [&](const char* remedy) {
+    return Error(error.code, {error.message.c_str()}, {remedy}, error.culprit, error.index);
+  };
+  PoseSpaceOptions other = options;
+  other.width = 0;
+  if (options.width > 0 && attempt(places, other)) return advise("Leave out the width.");
+  other = PoseSpaceOptions{};
+  if (attempt(places, other)) return advise("Leave out kernel, method, width and degree.");
+  return made;
+}
+
+Result<PoseSpace> PoseSpace::attempt(const Eigen::Ref<const Matrix>& given, const PoseSpaceOptions& options) {
   const Index count = given.rows();
   if (count == 0 || given.cols() == 0)
     return Error(HB_ERROR_EXAMPLES_TOO_FEW, {"A pose space needs at least one example."},
@@ -106,13 +121,20 @@ Result<PoseSpace> PoseSpace::create(const Eigen::Ref<const Matrix>& given, const
   if (!measures) return as_examples(measures.error());
   const Matrix places = measured(given, *measures);
   const bool normalized = options.method == PoseSpaceMethod::normalized;
+  const Kernel kernel{options.kernel, options.width > 0 ? options.width : 1};
   if (options.degree < (normalized ? -1 : 0) || options.degree > 1)
-    return Error(HB_ERROR_INVALID_OPTION, {"The degree is not 0 or 1."},
-                 {"Use 0, or 1 for weights that reproduce linear functions; without a tail weights would not sum to 1."},
+    return Error(
+        HB_ERROR_INVALID_OPTION, {"The degree is not 0 or 1."},
+        {kernel.minimum_degree() > 0 ? "Use degree 1." : "Use degree 0, or 1 for weights that reproduce linear functions."},
+        HB_CULPRIT_OPTION, -1);
+  if (normalized && kernel.vanishes_at_center())
+    return Error(HB_ERROR_INVALID_OPTION, {"This kernel is zero at its own place and cannot be normalized."},
+                 {"Use gaussian, multiquadric, inverse-multiquadric or inverse-quadratic, or leave out the method and the degree."},
                  HB_CULPRIT_OPTION, -1);
 
   RbfOptions rbf;
-  rbf.basis.kernel = {options.kernel, options.width > 0 ? options.width : 1};
+  rbf.advised = false;
+  rbf.basis.kernel = kernel;
   rbf.basis.degree = options.degree;
   rbf.basis.normalized = normalized;
   if (count == 1) {

@@ -69,6 +69,8 @@ class PoseSpace {
  private:
   PoseSpace(Rbf rbf, const Matrix& places, Vector measures);
 
+  static Result<PoseSpace> attempt(const Eigen::Ref<const Matrix>& places, const PoseSpaceOptions& options);
+
   Rbf rbf_;
   Vector measures_;   // d: of the axes, or empty
   Vector center_;     // d
