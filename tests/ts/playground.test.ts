@@ -7,7 +7,7 @@ import { Fit } from '../../web/figures/course/playground/fit.ts';
 import { Fits } from '../../web/figures/course/playground/fits.ts';
 import { isOffered, kindOf, modelOf } from '../../web/figures/course/playground/interpolants.ts';
 import { weightedKernels } from '../../web/figures/course/playground/kernel-curves.ts';
-import { complete } from '../../web/figures/course/playground/kind.ts';
+import { complete, takes } from '../../web/figures/course/playground/kind.ts';
 import { PRESETS } from '../../web/figures/course/playground/presets.ts';
 import { KERNEL_NAMES } from '../../web/figures/course/playground/rbf-kind.ts';
 import { outlierText, searchOutliers, summary } from '../../web/figures/course/playground/report.ts';
@@ -24,6 +24,7 @@ import { axisMarks, fromLog, toLog } from '../../web/figures/kit/scale.ts';
 import { pointsOn, roundRange, sectionOf, sectionSamples } from '../../web/figures/kit/section.ts';
 import { fromText, stateOfPreset, toText } from '../../web/figures/kit/state-text.ts';
 import { brief, conditionText, health } from '../../web/figures/kit/words.ts';
+import { random } from './support/scattered.ts';
 
 const seed = 20140;
 const hb = await load();
@@ -112,6 +113,35 @@ describe('presets', () => {
     expect(health(broad?.report?.condition ?? 0)).toBe('hopeless');
     expect(health(cured?.report?.condition ?? 1e99)).toBe('fine');
     expect(cured?.fit.verdict?.misfit).toBeLessThan(0.1);
+  });
+
+  it(`a warning’s button sets the number that its sentence names, and the warning goes (seed ${seed})`, () => {
+    const { parameters: known = {} } = kindOf('rbf') ?? {};
+    const { number: signed } = random(seed);
+    const draw = () => (signed() + 1) / 2;
+    const pressed = new Set<string>();
+    for (let trial = 0; trial < 400; trial++) {
+      const count = 3 + Math.floor(draw() * 20);
+      const clustered = draw() < 0.5;
+      const points = Array.from({ length: count }, (_, i) => (clustered ? 10 ** (-4 * draw()) : i) + 0.8 * draw());
+      const data = { dimension: 1, points, values: points.map(() => draw()) } as const;
+      const kernel = KERNEL_NAMES[Math.floor(draw() * KERNEL_NAMES.length)]?.[0] ?? '';
+      const centers = draw() < 0.3 ? '2' : '1';
+      const settings = { kernel, centers, fit: 'own', width: 10 ** (3 * draw() - 1.5), normalized: draw() < 0.2 };
+      const fit = new Fit(newModel('rbf', complete(known, settings), []), 1);
+      fit.solve(hb, data);
+      for (const warning of fit.verdict?.report?.warnings ?? [])
+        for (const { words, settings: chosen } of remediesOf(warning)) {
+          const number = Object.values(chosen).find((value) => typeof value === 'number');
+          if (number !== undefined) expect(warning.remedy).toContain(words.replace(/.* /, ''));
+          if (!takes(known, chosen)) continue;
+          pressed.add(Object.keys(chosen).join('+'));
+          const after = new Fit({ ...fit.model, settings: { ...fit.model.settings, ...chosen } }, 1);
+          after.solve(hb, data);
+          expect(after.verdict?.report?.warnings.map(({ code }) => code)).not.toContain(warning.code);
+        }
+    }
+    expect([...pressed].sort()).toEqual(['decay', 'fit+width', 'normalized', 'smoothing']);
   });
 
   it.each([

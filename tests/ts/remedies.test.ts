@@ -47,8 +47,8 @@ const numberIn = (found: RegExpExecArray) => Number(found[1]);
 
 /** Points without those of these numbers. */
 function lessPoints(options: Options, out: readonly number[]): Options {
-  const { dimension, points, values } = options as unknown as RbfOptions;
-  const keep = (rows: ArrayLike<number>, width: number) => Array.from(rows).filter((_, i) => !out.includes(Math.floor(i / width)));
+  const { dimension, points, values } = options as { dimension: number; points: number[]; values: number[] };
+  const keep = (rows: number[], width: number) => rows.filter((_, i) => !out.includes(Math.floor(i / width)));
   return { ...options, points: keep(points, dimension), values: keep(values, (values.length * dimension) / points.length) };
 }
 
@@ -69,8 +69,8 @@ const STEPS: readonly [RegExp, Step][] = [
   [
     /^Use at most (\d+) centers/,
     (options, found) => {
-      const { centers, dimension } = options as unknown as RbfOptions;
-      return { ...options, centers: Array.from(centers ?? []).slice(0, numberIn(found) * dimension) };
+      const { centers = [], dimension } = options as { centers?: number[]; dimension: number };
+      return { ...options, centers: centers.slice(0, numberIn(found) * dimension) };
     },
   ],
   [
@@ -89,7 +89,9 @@ const STEPS: readonly [RegExp, Step][] = [
   [/^Leave out kernel, method, width and degree/, without('kernel', 'method', 'width', 'degree')],
   [/^Raise the degree to (\d)/, withOption('degree', numberIn)],
   [/^Use degree (\d)/, withOption('degree', numberIn)],
-  [/^Use degree 2, or leave it out/, without('degree')],
+  [/^Give a whole number from -1 to (\d)/, withOption('degree', numberIn)],
+  [/^Give a positive number/, withOption('width', () => 1)],
+  [/^Give a number from (\d) on/, withOption('smoothing', numberIn)],
   [/^Use degree 0, or 1/, withOption('degree', () => 1)],
   [/or leave out the method and the degree/, without('method', 'degree')],
   [/[Uu]se order (\d+)/, withOption('order', numberIn)],

@@ -175,10 +175,10 @@ describe('poseSpace', () => {
     expectClose(sevens.weights(at), plain.weights(at), 1e-9);
   });
 
-  test.each([0, -1, Number.NaN, Number.POSITIVE_INFINITY])('refuses the scale %s by the name of its dimension', (scale) => {
+  test.each([0, -1, Number.NaN, Number.POSITIVE_INFINITY])('refuses the scale %s by its place', (scale) => {
     const error = errorOf(() => hb.poseSpace({ dimensions: ['a', { name: 'turn', scale }], examples: examples([0, 0, 1, 1]) }));
     expect(error.code).toBe('invalid-option');
-    expect(error.message).toContain('"turn"');
+    expect(error.message).toContain('"dimensions[1].scale"');
     expect(error.message).toContain(`${scale}`);
   });
 

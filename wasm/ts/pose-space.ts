@@ -218,13 +218,13 @@ export class PoseSpace {
 
 const QUERY = { code: 'query-not-finite', kind: 'query', index: 0 } as const;
 
-const DIMENSION = { name: text, scale: positive } satisfies Readers<PoseDimension>;
-
 const READERS = {
   dimensions: (value, name) => {
-    const dimensions = list(value, name, 'names of dimensions', (each, label) =>
-      typeof each === 'string' ? { name: each, scale: 1 } : options(each, DIMENSION, { scale: 1 }, label),
-    );
+    const dimensions = list(value, name, 'names of dimensions', (each, label) => {
+      if (typeof each === 'string') return { name: each, scale: 1 };
+      const readers = { name: text, scale: (scale, key) => positive(scale, `${label}.${key}`) } satisfies Readers<PoseDimension>;
+      return options(each, readers, { scale: 1 }, label);
+    });
     if (dimensions.length > 0) return dimensions;
     throw new HandlebodyError('invalid-shape', {
       message: 'The pose space has no dimensions.',

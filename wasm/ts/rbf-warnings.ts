@@ -187,7 +187,7 @@ function fades(kernel: RbfReport['kernel'], { options }: WarningFacts): boolean 
   return falls && !options.normalized && typeof options.width === 'number';
 }
 
-function interpolates({ smoothing, weightDecay, centers }: RbfOptions): boolean {
+function interpolates({ smoothing, weightDecay, centers }: Partial<ReadRbf>): boolean {
   return !smoothing && !weightDecay && !centers;
 }
 

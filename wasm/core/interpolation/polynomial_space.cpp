@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/interpolation/polynomial.hpp"
 #include "core/numerics/decompositions.hpp"
@@ -14,87 +15,131 @@ namespace {
 constexpr double rank_tolerance = 1e-10;
 const double root_two = std::sqrt(2.0);
 
+// Plain loops below, and not Eigen's expressions: this runs once a fit, and each expression is compiled into code of its own, 3 kB
+// gzipped in all.
+
 double longest_column(const MatrixXd& columns) {
-  return columns.cols() ? std::sqrt(columns.colwise().squaredNorm().maxCoeff()) : 0;
+  double longest = 0;
+  for (Index j = 0; j < columns.cols(); ++j) longest = std::max(longest, columns.col(j).squaredNorm());
+  return std::sqrt(longest);
 }
 
 Index rank_of(const Vector& sizes, double longest) {
-  return (sizes.array() > rank_tolerance * longest).count();
+  Index rank = 0;
+  while (rank < sizes.size() && sizes[rank] > rank_tolerance * longest) ++rank;
+  return rank;
+}
+
+void copy_columns(const MatrixXd& from, Index count, MatrixXd& to, Index first) {
+  std::copy(from.data(), from.data() + from.rows() * count, to.data() + to.rows() * first);
+}
+
+MatrixXd first_columns(const MatrixXd& a, Index count) {
+  MatrixXd columns(a.rows(), count);
+  copy_columns(a, count, columns, 0);
+  return columns;
+}
+
+MatrixXd transposed(const MatrixXd& a) {
+  MatrixXd turned(a.cols(), a.rows());
+  for (Index i = 0; i < a.rows(); ++i)
+    for (Index j = 0; j < a.cols(); ++j) turned(j, i) = a(i, j);
+  return turned;
+}
+
+void scale(MatrixXd& a, double factor) {
+  for (Index i = 0; i < a.size(); ++i) a.data()[i] *= factor;
 }
 
 /** Columns less what orthonormal ones span of them. */
 MatrixXd beyond(const MatrixXd& orthonormal, MatrixXd columns) {
-  for (int twice = 0; twice < 2; ++twice)  // the second time removes what rounding left of the first
-    columns -= product(orthonormal, transposed_product(orthonormal, columns));
+  for (int twice = 0; twice < 2; ++twice) {  // the second time removes what rounding left of the first
+    const MatrixXd spanned = product(orthonormal, transposed_product(orthonormal, columns));
+    for (Index i = 0; i < columns.size(); ++i) columns.data()[i] -= spanned.data()[i];
+  }
   return columns;
 }
 
 /** The products zᵢzⱼ, i ≤ j, with the weight that makes their coefficients' norm independent of how z is turned. */
-MatrixXd products_of(const MatrixXd& z) {
-  const Index r = z.cols();
+MatrixXd products_of(const MatrixXd& z, Index r) {
   MatrixXd products(z.rows(), r * (r + 1) / 2);
   for (Index i = 0, column = 0; i < r; ++i)
-    for (Index j = i; j < r; ++j, ++column) products.col(column) = (i == j ? 1 : root_two) * z.col(i).cwiseProduct(z.col(j));
+    for (Index j = i; j < r; ++j, ++column)
+      for (Index row = 0; row < z.rows(); ++row) products(row, column) = (i == j ? 1 : root_two) * z(row, i) * z(row, j);
   return products;
 }
 
 }  // namespace
 
 PolynomialSpace::PolynomialSpace(const Matrix& points, int degree) : degree_(degree), dimension_(points.cols()), rank_(dimension_) {
-  const Index n = points.rows(), d = dimension_;
-  for (int k = 0; k <= 2; ++k) counts_[k] = polynomial_count(k, d);
-  if (degree >= 1) {
-    const Vector center = points.colwise().mean();
-    MatrixXd offsets = points.rowwise() - center.transpose();
-    Vector extents = Vector::Ones(d);
-    MatrixXd even = offsets;
-    for (Index axis = 0; axis < d; ++axis) {
-      const double extent = offsets.col(axis).cwiseAbs().maxCoeff();
-      if (extent > 0 && std::isfinite(1 / extent)) even.col(axis) /= extents[axis] = extent;
-    }
-    const double longest = longest_column(even);
-    const auto [orthonormal, sizes] = column_span(even);
-    rank_ = rank_of(sizes, longest);
-    // Quadratic functions are told apart in orthonormal coordinates, where the set's proportions do not matter.
-    MatrixXd lower(n, 1 + rank_), left;
-    Index kept = 0;
-    if (degree == 2 && rank_ > 0) {
-      lower.col(0).setConstant(1 / std::sqrt(static_cast<double>(n)));
-      lower.rightCols(rank_) = orthonormal.leftCols(rank_);
-      const MatrixXd products = products_of(orthonormal.leftCols(rank_));
-      left = beyond(lower, products);
-      kept = rank_of(column_span(left).sizes, longest_column(products));
-    }
-    const Index all = rank_ * (rank_ + 1) / 2;
-    reduced_ = rank_ < d || (degree == 2 && kept < all);
-    if (reduced_) {
-      axes_ = MatrixXd::Identity(rank_, d);
-      if (rank_ > 0) {
-        if (rank_ < d) {
-          MatrixXd span = column_span(even.transpose()).basis.leftCols(rank_);
-          span = column_span(extents.asDiagonal() * span).basis.leftCols(rank_);
-          offsets = product(offsets, span);
-          axes_ = span.transpose();
-        }
-        const Qr qr(offsets);
-        MatrixXd whitened = std::sqrt(static_cast<double>(n)) * axes_;
-        qr.solve_r_transposed(whitened);
-        axes_ = whitened;
-      }
-      shift_.resize(rank_);
-      turn(center.data(), shift_.data());
-      if (degree == 2 && kept < all) {
-        const MatrixXd z = product(points.rowwise() - center.transpose(), axes_.transpose());
-        lower.rightCols(rank_) = z / std::sqrt(static_cast<double>(n));
-        left = beyond(lower, products_of(z));
-        quadratic_ = column_span(left.transpose()).basis.leftCols(kept);
-      }
-      counts_[1] = 1 + rank_;
-      counts_[2] = 1 + rank_ + kept;
-    }
-  }
+  for (int k = 0; k <= 2; ++k) counts_[k] = polynomial_count(k, dimension_);
+  if (degree >= 1) reduce(points);
   monomials_.resize(polynomial_count(degree, rank_));
   slopes_.resize(monomials_.size(), rank_);
+}
+
+void PolynomialSpace::reduce(const Matrix& points) {
+  const Index n = points.rows(), d = dimension_;
+  const double root_n = std::sqrt(static_cast<double>(n));
+  Vector center(d), extents(d);
+  MatrixXd offsets(n, d), even(n, d);
+  for (Index axis = 0; axis < d; ++axis) {
+    double sum = 0, extent = 0;
+    for (Index i = 0; i < n; ++i) sum += points(i, axis);
+    center[axis] = sum / static_cast<double>(n);
+    for (Index i = 0; i < n; ++i) extent = std::max(extent, std::abs(offsets(i, axis) = points(i, axis) - center[axis]));
+    extents[axis] = extent > 0 && std::isfinite(1 / extent) ? extent : 1;
+    for (Index i = 0; i < n; ++i) even(i, axis) = offsets(i, axis) / extents[axis];
+  }
+  const double longest = longest_column(even);
+  MatrixXd across = transposed(even);
+  const auto [orthonormal, sizes] = column_span(std::move(even));
+  rank_ = rank_of(sizes, longest);
+  // Quadratic functions are told apart in orthonormal coordinates, where the set's proportions do not matter.
+  MatrixXd lower(n, 1 + rank_);
+  Index kept = 0;
+  if (degree_ == 2 && rank_ > 0) {
+    std::fill(lower.data(), lower.data() + n, 1 / root_n);
+    copy_columns(orthonormal, rank_, lower, 1);
+    const MatrixXd products = products_of(orthonormal, rank_);
+    kept = rank_of(column_span(beyond(lower, products)).sizes, longest_column(products));
+  }
+  const Index all = rank_ * (rank_ + 1) / 2;
+  reduced_ = rank_ < d || (degree_ == 2 && kept < all);
+  if (!reduced_) return;
+  MatrixXd span = MatrixXd::Identity(d, rank_);
+  if (rank_ > 0) {
+    if (rank_ < d) {
+      span = first_columns(column_span(std::move(across)).basis, rank_);
+      for (Index k = 0; k < rank_; ++k)
+        for (Index axis = 0; axis < d; ++axis) span(axis, k) *= extents[axis];
+      span = first_columns(column_span(std::move(span)).basis, rank_);
+      offsets = product(offsets, span);
+    }
+    MatrixXd whitened = transposed(span);
+    scale(whitened, root_n);
+    Qr(offsets).solve_r_transposed(whitened);
+    span = transposed(whitened);
+  }
+  axes_.resize(rank_, d);
+  // By rows: the transpose of what is by columns.
+  std::copy(span.data(), span.data() + span.size(), axes_.data());
+  shift_.resize(rank_);
+  turn(center.data(), shift_.data());
+  if (degree_ == 2 && kept < all) {
+    MatrixXd z(n, rank_);
+    Vector offset(d), turned(rank_);
+    for (Index i = 0; i < n; ++i) {
+      for (Index axis = 0; axis < d; ++axis) offset[axis] = points(i, axis) - center[axis];
+      turn(offset.data(), turned.data());
+      for (Index k = 0; k < rank_; ++k) z(i, k) = turned[k];
+    }
+    copy_columns(z, rank_, lower, 1);
+    for (Index i = n; i < lower.size(); ++i) lower.data()[i] /= root_n;
+    quadratic_ = first_columns(column_span(transposed(beyond(lower, products_of(z, rank_)))).basis, kept);
+  }
+  counts_[1] = 1 + rank_;
+  counts_[2] = 1 + rank_ + kept;
 }
 
 void PolynomialSpace::coordinates(const double* x, double* z) const {

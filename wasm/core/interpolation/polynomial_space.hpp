@@ -48,6 +48,9 @@ class PolynomialSpace {
   void gradients(const double* z, double* out);
 
  private:
+  /** Finds what the points determine: for degrees from 1 on. */
+  void reduce(const Matrix& points);
+
   int degree_ = -1;
   Index dimension_ = 0, rank_ = 0;
   Index counts_[3] = {0, 0, 0};

@@ -5,6 +5,7 @@ import { brief, conditionText, health } from '../../kit/words.ts';
 import type { Setting, Settings } from './experiment.ts';
 import type { Fit } from './fit.ts';
 import { kindOf } from './interpolants.ts';
+import { takes } from './kind.ts';
 import { WarningList } from './warning-list.ts';
 import { WeightList } from './weight-list.ts';
 
@@ -49,8 +50,11 @@ export class Card {
     this.#controls = partControls<Settings>(parts, fit.model.settings, (part, value) =>
       actions.set(key, part.write({}, value as never) as Settings),
     );
-    const known = new Set(Object.keys(parameters));
-    this.#warnings = new WarningList(known, (settings) => actions.set(key, settings), this.#shown);
+    this.#warnings = new WarningList(
+      (settings) => takes(parameters, settings),
+      (settings) => actions.set(key, settings),
+      this.#shown,
+    );
     this.#verdict.append(this.#condition, this.#misfit);
 
     const id = `card-${nextId++}`;

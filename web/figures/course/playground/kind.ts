@@ -1,7 +1,7 @@
 import type { HandlebodyRuntime, Interpolant } from '../../../../wasm/ts/runtime.ts';
-import type { Parameter } from '../../kit/channel.ts';
+import { type Channel, type Parameter, readAlone } from '../../kit/channel.ts';
 import type { Label } from '../../kit/chart.ts';
-import type { Settings } from './experiment.ts';
+import type { Setting, Settings } from './experiment.ts';
 
 /** Points with a value each, as all interpolants take them. */
 export interface Data {
@@ -24,4 +24,12 @@ export interface Kind {
 /** All settings, those left out at their initial values. */
 export function complete(parameters: Kind['parameters'], given: Settings): Settings {
   return Object.fromEntries(Object.entries(parameters).map(([id, { initial }]) => [id, given[id] ?? initial]));
+}
+
+/** Whether settings are among the parameters as they are: a number beyond a range's ends would become its end. */
+export function takes(parameters: Kind['parameters'], given: Settings): boolean {
+  return Object.entries(given).every(([id, value]) => {
+    const parameter = parameters[id] as Channel<Setting> | undefined;
+    return parameter !== undefined && readAlone(parameter, parameter.write(value, {})) === value;
+  });
 }

@@ -2,7 +2,6 @@ import type { RbfWarning } from '../../../../wasm/ts/runtime.ts';
 import { button, h, match, write } from '../../../ui/dom.ts';
 import { explain } from '../../../ui/explain.ts';
 import { focusNeighbor } from '../../../ui/focus.ts';
-import { brief } from '../../kit/words.ts';
 import type { Settings } from './experiment.ts';
 
 interface Remedy {
@@ -10,15 +9,18 @@ interface Remedy {
   readonly settings: Settings;
 }
 
-/** What a warning suggests, as settings that a button can apply. */
-export function remediesOf({ suggestion }: Pick<RbfWarning, 'suggestion'>): Remedy[] {
-  const remedies: Remedy[] = [];
-  if (suggestion?.width !== undefined)
-    remedies.push({ words: `Use width ${brief(suggestion.width)}`, settings: { fit: 'own', width: suggestion.width } });
-  if (suggestion?.smoothing !== undefined)
-    remedies.push({ words: `Use smoothing ${brief(suggestion.smoothing)}`, settings: { smoothing: suggestion.smoothing } });
-  return remedies;
+/** What a warning suggests, as settings that a button can apply. Its words have the number that the warning's sentence has. */
+export function remediesOf({ suggestion = {} }: Pick<RbfWarning, 'suggestion'>): Remedy[] {
+  const { width, smoothing, weightDecay, normalized } = suggestion;
+  return [
+    ...(width === undefined ? [] : [{ words: `Use width ${asTold(width)}`, settings: { fit: 'own', width } }]),
+    ...(smoothing === undefined ? [] : [{ words: `Use smoothing ${asTold(smoothing)}`, settings: { smoothing } }]),
+    ...(weightDecay === undefined ? [] : [{ words: `Use weight decay ${asTold(weightDecay)}`, settings: { decay: weightDecay } }]),
+    ...(normalized ? [{ words: 'Use normalized kernels', settings: { normalized } }] : []),
+  ];
 }
+
+const asTold = (number: number) => (number >= 1e-3 && number < 1e5 ? String(number) : number.toExponential());
 
 interface Told {
   readonly message: string;
@@ -29,14 +31,14 @@ interface Told {
 /** An interpolant's error and warnings, each as a sentence, what to do about it, and buttons that do it. */
 export class WarningList {
   readonly element = h('div', { class: 'warnings' });
-  readonly #known: ReadonlySet<string>;
+  readonly #takes: (settings: Settings) => boolean;
   readonly #apply: (settings: Settings) => void;
   readonly #below: HTMLElement;
   readonly #items = new Map<string, { readonly element: HTMLElement; show(told: Told): void }>();
 
-  /** `known`: the settings that the interpolant has; remedies that need others get no button. `below` gets the focus after the last one. */
-  constructor(known: ReadonlySet<string>, apply: (settings: Settings) => void, below: HTMLElement) {
-    [this.#known, this.#apply, this.#below] = [known, apply, below];
+  /** `takes`: whether the interpolant has such settings, as they are; other remedies get no button. `below` gets the focus after the last one. */
+  constructor(takes: (settings: Settings) => boolean, apply: (settings: Settings) => void, below: HTMLElement) {
+    [this.#takes, this.#apply, this.#below] = [takes, apply, below];
   }
 
   /** `kept`: whether there is a last good picture. */
@@ -47,7 +49,7 @@ export class WarningList {
       told.set('error', { message, remedy: kept ? `${remedy} The picture is the last good one.` : remedy, remedies: [] });
     } else
       for (const warning of warnings) {
-        const remedies = remediesOf(warning).filter(({ settings }) => Object.keys(settings).every((id) => this.#known.has(id)));
+        const remedies = remediesOf(warning).filter(({ settings }) => this.#takes(settings));
         told.set(warning.code, { ...warning, remedies });
       }
     for (const [code, words] of told) {
