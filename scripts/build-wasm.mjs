@@ -2,23 +2,14 @@
 // were made of and with in wasm/toolchain.json.
 // With --check it compiles into a folder of its own and fails unless the bytes are those that are committed.
 import { createHash } from 'node:crypto';
-import {
-  accessSync,
-  constants,
-  existsSync,
-  mkdirSync,
-  mkdtempSync,
-  readdirSync,
-  readFileSync,
-  rmSync,
-  writeFileSync,
-} from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { aptInstall, packageVersion } from './lib/apt.mjs';
 import { cmakeBuild } from './lib/cmake.mjs';
+import { emscriptenEnvironment } from './lib/emscripten.mjs';
 import { ensureInstalled } from './lib/install.mjs';
 import { at, root } from './lib/paths.mjs';
-import { capture, mustRun, runMain, which } from './lib/run.mjs';
+import { mustRun, runMain, which } from './lib/run.mjs';
 import { EIGEN, ensureEigen } from './toolchain.mjs';
 
 /** Everything whose version decides the bytes. */
@@ -53,24 +44,9 @@ function toolVersions() {
   return versions;
 }
 
-/** Emscripten's surroundings: this Node, Debian's acorn, and a library cache that can be written where one has to be filled. */
-function environment() {
-  /** @type {NodeJS.ProcessEnv} */
-  const env = { ...process.env, EM_NODE_JS: process.execPath };
-  env.NODE_PATH = [process.env.NODE_PATH, '/usr/share/nodejs'].filter(Boolean).join(path.delimiter);
-  const setting = (/** @type {string} */ name) => capture('em-config', [name], { env }).stdout.trim();
-  if (env.EM_CACHE || setting('FROZEN_CACHE') === 'True') return env;
-  try {
-    accessSync(setting('CACHE'), constants.W_OK);
-  } catch {
-    env.EM_CACHE = at('.cache', 'emscripten');
-  }
-  return env;
-}
-
 /** Compiles in a folder. @param {string} folder @returns {Promise<Map<string, Buffer>>} the wasm files by name */
 async function compile(folder) {
-  const env = environment();
+  const env = emscriptenEnvironment();
   const configure = [
     'cmake',
     '-S',

@@ -11,6 +11,7 @@ const UNTESTED = {
 
 /** Tests of more than one header, each with what they test. @type {Record<string, string>} */
 const OF_MORE = {
+  'tests/core/given_counts_test.cpp': 'every count that a caller gives to the C interface',
   'tests/core/irbf_solver_test.cpp': "IRBF from the bake to the frame, on the paper's bar",
 };
 

@@ -1,15 +1,15 @@
-// `npm test`: installs what it needs, then runs every suite: native C++, TypeScript on the real wasm, a real browser on the built site, and
+// `npm test`: installs what it needs, then runs every suite: native C++, the same in wasm of 32 bits, TypeScript on the real wasm, a real browser on the built site, and
 // two consumers of the packed library. The last line is always "N passed, N failed". REQUIRE_NATIVE=1 and REQUIRE_CONSUMERS=1 make a suite
-// that cannot run a failure. `npm test -- ts` (native, ts, web, consumers) runs only the suites that are named.
+// that cannot run a failure. `npm test -- ts` (native, wasm32, ts, web, consumers) runs only the suites that are named.
 import { existsSync, readdirSync } from 'node:fs';
 import { ensureInstalled } from './lib/install.mjs';
-import { prepareNativeSuite } from './lib/native.mjs';
+import { prepareNativeSuite, prepareWasm32Suite } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
 import { runMain } from './lib/run.mjs';
 import { buildSite, hasPages } from './lib/site.mjs';
 import { runVitest } from './lib/vitest.mjs';
 
-const SUITES = ['native', 'ts', 'web', 'consumers'];
+const SUITES = ['native', 'wasm32', 'ts', 'web', 'consumers'];
 /** One that makes a single script of everything, and one that bundles nothing: all others are `npm run test:consumers`. */
 const CONSUMERS = ['esbuild', 'import map'];
 const named = process.argv.slice(2);
@@ -31,14 +31,17 @@ await runMain(async () => {
   };
 
   const native = wanted('native') ? await prepareNativeSuite() : undefined;
-  if (native && 'notRun' in native) {
-    lines.push(`native suite: NOT RUN (${native.notRun})`);
+  const wasm32 = wanted('wasm32') ? await prepareWasm32Suite() : undefined;
+  for (const [suite, prepared] of Object.entries({ native, wasm32 })) {
+    if (!prepared || !('notRun' in prepared)) continue;
+    lines.push(`${suite} suite: NOT RUN (${prepared.notRun})`);
     if (process.env.REQUIRE_NATIVE === '1') total.failed += 1;
   }
   // Each keeps about one core busy.
   const both = await Promise.all([native && 'run' in native && native.run(), wanted('ts') && runVitest('ts')]);
   if (both[0]) add('native', both[0]);
   if (both[1]) add('ts', both[1]);
+  if (wasm32 && 'run' in wasm32) add('wasm32', await wasm32.run());
   if (wanted('web') && hasWebTests()) add('web', await runWebSuite());
   const consumers = wanted('consumers') ? await runConsumers() : undefined;
   if (consumers && 'notRun' in consumers) {

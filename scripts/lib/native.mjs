@@ -2,6 +2,7 @@
 import path from 'node:path';
 import { ensureNative } from '../toolchain.mjs';
 import { cmakeBuild } from './cmake.mjs';
+import { emscriptenEnvironment } from './emscripten.mjs';
 import { at } from './paths.mjs';
 import { run, which } from './run.mjs';
 
@@ -36,20 +37,52 @@ export async function prepareNativeSuite() {
     console.error('native suite: does not compile');
     return { run: async () => ({ passed: 0, failed: 1 }) };
   }
-  return {
-    async run() {
-      let output = '';
-      const status = await run(path.join(NATIVE_BUILD, 'handlebody_tests'), ['--no-colors=1'], {
-        stdio: ['ignore', 'pipe', 'inherit'],
-        onOutput: (text) => {
-          output += text;
-        },
-      });
-      // In one piece: another suite may be talking meanwhile.
-      process.stdout.write(output);
-      return readDoctest(output, status);
+  return { run: () => runDoctest(path.join(NATIVE_BUILD, 'handlebody_tests'), []) };
+}
+
+/** @param {string} program @param {string[]} args @returns {Promise<Counts>} */
+async function runDoctest(program, args) {
+  let output = '';
+  const status = await run(program, [...args, '--no-colors=1'], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+    onOutput: (text) => {
+      output += text;
     },
-  };
+  });
+  // In one piece: another suite may be talking meanwhile.
+  process.stdout.write(output);
+  return readDoctest(output, status);
+}
+
+const WASM_TESTS_BUILD = at('build', 'wasm32');
+
+/**
+ * Builds what runs in wasm under Node: the native tests, and the fuzz targets that replay files.
+ * @param {string} target
+ * @returns {Promise<{ problem: string } | { failed: true } | { program(name: string): string }>} why it cannot be done, or where the programs are
+ */
+export async function buildForNode(target) {
+  if (!which('emcc') || !which('cmake')) return { problem: 'no Emscripten' };
+  const problem = await ensureNative();
+  if (problem) return { problem };
+  const env = emscriptenEnvironment();
+  const generator = which('ninja') ? ['-G', 'Ninja'] : [];
+  const settings = ['-DCMAKE_BUILD_TYPE=Release', '-DHANDLEBODY_FOR_NODE=ON', '-DHANDLEBODY_FUZZ=replay'];
+  const configure = ['cmake', '-S', at('wasm'), '-B', WASM_TESTS_BUILD, ...settings, ...generator];
+  if ((await run('emcmake', configure, { env, stdio: ['ignore', 'ignore', 'inherit'] })) !== 0) return { failed: true };
+  if ((await cmakeBuild(WASM_TESTS_BUILD, { target, env })) !== 0) return { failed: true };
+  return { program: (name) => path.join(WASM_TESTS_BUILD, `${name}.js`) };
+}
+
+/**
+ * Builds the native tests for wasm: sizes and indices have 32 bits there, as they have in what ships.
+ * @returns {Promise<{ run(): Promise<Counts> } | { notRun: string }>}
+ */
+export async function prepareWasm32Suite() {
+  const built = await buildForNode('handlebody_tests');
+  if ('problem' in built) return { notRun: built.problem };
+  if ('failed' in built) return { run: async () => ({ passed: 0, failed: 1 }) };
+  return { run: () => runDoctest(process.execPath, [built.program('handlebody_tests')]) };
 }
 
 /** The numbers of doctest's summary; a run that broke off without one is a failure. @param {string} output @param {number} status @returns {Counts} */

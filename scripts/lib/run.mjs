@@ -19,18 +19,19 @@ export function which(name) {
   return undefined;
 }
 
-/** @typedef {import('node:child_process').SpawnOptions & { onOutput?: (text: string) => void }} RunOptions */
+/** @typedef {import('node:child_process').SpawnOptions & { onOutput?: (text: string) => void, onError?: (text: string) => void }} RunOptions */
 
 /**
- * Runs a program to its end with our output as its own, or piped to `onOutput`. Signals that end us end it too.
+ * Runs a program to its end with our output as its own, or piped to `onOutput` and `onError`. Signals that end us end it too.
  * @param {string} command @param {string[]} args @param {RunOptions} [options]
  * @returns {Promise<number>} its exit status; 127 when it could not be started, 128 when a signal ended it
  */
 export function run(command, args, options = {}) {
   return new Promise((resolve) => {
-    const { onOutput, ...spawnOptions } = options;
+    const { onOutput, onError, ...spawnOptions } = options;
     const child = spawn(command, args, { cwd: root, stdio: 'inherit', ...spawnOptions });
     if (onOutput) child.stdout?.setEncoding('utf8').on('data', onOutput);
+    if (onError) child.stderr?.setEncoding('utf8').on('data', onError);
     const pass = (/** @type {NodeJS.Signals} */ signal) => child.kill(signal);
     process.on('SIGTERM', pass).on('SIGINT', pass);
     const end = (/** @type {number} */ status) => {

@@ -226,7 +226,9 @@ TEST_CASE("a closed part that faces inward is turned where it lies in no other, 
     Eigen::RowVector3d by;
     bool cavity;
   };
-  for (const auto& [by, cavity] : {Place{{1.3, 1.2, 1.1}, true}, Place{{6, 0, 0}, false}, Place{{3.5, 1.1, 1.2}, false}}) {
+  for (const Place& place : {Place{{1.3, 1.2, 1.1}, true}, Place{{6, 0, 0}, false}, Place{{3.5, 1.1, 1.2}, false}}) {
+    const Eigen::RowVector3d by = place.by;  // not a structured binding, which Clang 14 captures in no lambda
+    const bool cavity = place.cavity;
     for (const bool open : {false, true}) {  // with an open part elsewhere, the same
       CAPTURE(by);
       CAPTURE(open);

@@ -32,11 +32,16 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
                              {"Use the numbers that the header lists."},
                              HB_CULPRIT_OPTION});
   }
+  if (const int32_t status = hb_mesh_check_size(vertex_count, triangle_count)) return status;
+  if (const int32_t status = handlebody::check_arrays({{positions, "positions", vertex_count, 3},
+                                                       {triangles, "triangles", triangle_count, 3},
+                                                       {given->voxels, "voxels", given->voxel_count}}))
+    return status;
   handlebody::BakeOptions options;
-  options.centers = given->center_count;
-  options.resolution = static_cast<int>(std::min(given->resolution, 100000u));
+  options.centers = handlebody::signed_count(given->center_count);
+  options.resolution = handlebody::signed_count(given->resolution);
   options.method = static_cast<handlebody::DistanceMethod>(given->method);
-  options.max_spheres = static_cast<int>(std::min(given->max_spheres, 100000u));
+  options.max_spheres = handlebody::signed_count(given->max_spheres);
   options.packing = static_cast<handlebody::SpherePacking>(given->packing);
   options.cloud = given->cloud != 0;
   if (given->density != nullptr) options.density.assign(given->density, given->density + vertex_count);
@@ -46,7 +51,7 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
     grid.spacing = given->spacing;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       grid.origin[static_cast<handlebody::Index>(axis)] = given->origin[axis];
-      grid.dims[axis] = static_cast<std::int32_t>(std::min(given->dims[axis], 100'000'000u));
+      grid.dims[axis] = handlebody::signed_count(given->dims[axis]);
     }
     options.grid = grid;
     options.voxels.assign(given->voxels, given->voxels + given->voxel_count);

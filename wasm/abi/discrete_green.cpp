@@ -16,15 +16,15 @@ extern "C" {
 
 int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values,
                                  uint32_t sample_count, hb_discrete_green** out) {
-  if (!out || (sample_count > 0 && (!samples || !values)))
-    return fail({HB_ERROR_INVALID_SHAPE, {"A pointer to samples, values or the result is NULL."}, {"Pass valid pointers."}});
+  if (!out) return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the result is NULL."}, {"Pass a valid pointer."}});
+  if (const int32_t status = check_arrays({{samples, "samples", sample_count}, {values, "values", sample_count}})) return status;
   if (boundary >= grid_boundary_count)
     return fail({HB_ERROR_INVALID_OPTION,
                  {"There is no boundary ", boundary, "."},
                  {"Use 0 (free), 1 (Dirichlet), 2 (Neumann) or 3 (periodic)."},
                  HB_CULPRIT_OPTION});
-  auto made =
-      DiscreteGreen::create(size, static_cast<int>(order), static_cast<GridBoundary>(boundary), samples, values, sample_count);
+  auto made = DiscreteGreen::create(signed_count(size), signed_count(order), static_cast<GridBoundary>(boundary), samples, values,
+                                    static_cast<Index>(sample_count));
   if (!made) return fail(made.error());
   *out = new hb_discrete_green{std::move(*made)};
   return HB_OK;

@@ -11,6 +11,10 @@
  *   - Objects are opaque. The caller frees what a *_create or *_begin function returned by the matching *_free; NULL is allowed.
  *   - Arrays are row-major and tightly packed. Input arrays are copied; pointers that a function returns belong to the object and
  *     are valid until its next non-const call.
+ *   - Counts are what they are, unsigned, and so are their products: an array of 4 GiB or more, or of 2³¹ numbers, is INVALID_SHAPE (or
+ *     MESH_TOO_LARGE) before anything of it is read, as is NULL for one that is not empty. Whether an array has as many numbers as its
+ *     count says, only the caller knows.
+ *   - While a host's kernel runs, it may call functions of other objects, and no function of the object that asked for it.
  *   - Doubles for solving, floats for each frame. Lengths are in the model's own units, or where so stated in "solver space": the
  *     model scaled to a unit bounding-box diagonal and centered on its box.
  *   - Nothing here is thread-safe; use one instance per thread.
@@ -89,7 +93,7 @@ typedef struct hb_bake_options {
   double spacing;
   const uint32_t* voxels;  /* linear indices i + nx·(j + ny·k), ascending */
   const double* density;   /* vertex_count relative densities of centers, 1e-6 to 1e6, 1 where nothing special is wanted */
-  const uint8_t* used;     /* vertex_count: not 0 for the vertices that count, as those of a solid do; NULL for those that triangles use */
+  const uint8_t* used;     /* vertex_count: not 0 for the vertices that count, as those of a solid do; those that triangles use count anyway */
 } hb_bake_options;
 
 /* A warning about a bake that worked. */
@@ -187,7 +191,8 @@ HB_API int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tole
  * (vertex_count × 3) turned, or where that is NULL, area-weighted ones. */
 HB_API int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normals, float* normals);
 
-/* The deformation at any `count` points of space (model units, in and out count × 3): the double-precision reference. */
+/* The deformation at any `count` points of space (model units, in and out count × 3): the double-precision reference. Fails with
+ * QUERY_NOT_FINITE (culprit: the point) or KERNEL_FAILED. */
 HB_API int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out);
 
 /* Measures the present deformation on `count` tetrahedra of the mesh's own vertices, or with 0 on those that the voxels make. Fails with

@@ -10,8 +10,8 @@
 
 namespace handlebody {
 
-/** The host's kernel number `id`. Whether it is definite is unknown: the caller decides on the tail. Natively there is no host, and
- * every value is NaN: there a CustomKernel is passed to the core itself. */
+/** The host's kernel number `id`. Whether it is definite is unknown: the caller decides on the tail. Natively, unless the
+ * program defines hb_host_kernel, every value is NaN: there a CustomKernel is passed to the core itself. */
 CustomKernel host_kernel(uint32_t id);
 
 }  // namespace handlebody

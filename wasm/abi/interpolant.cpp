@@ -11,8 +11,13 @@ namespace {
 
 constexpr uint32_t largest_dimension = 64;
 
-int32_t check_queries(const hb_interpolant& interpolant, const double* queries, uint32_t count) {
-  const Index d = interpolant.method->dimension(), numbers = static_cast<Index>(count) * d;
+/** Checks `queries`, and that the answers, `columns` numbers for each, can be there. */
+int32_t check_queries(const hb_interpolant& interpolant, const double* queries, uint32_t count, const double* out, Index columns) {
+  const Index d = interpolant.method->dimension();
+  if (const int32_t status = check_arrays(
+          {{queries, "queries", count, static_cast<uint32_t>(d)}, {out, "results", count, static_cast<uint32_t>(columns)}}))
+    return status;
+  const Index numbers = static_cast<Index>(count) * d;
   for (Index i = 0; i < numbers; ++i)
     if (!std::isfinite(queries[i]))
       return fail({HB_ERROR_QUERY_NOT_FINITE,
@@ -26,13 +31,12 @@ int32_t check_queries(const hb_interpolant& interpolant, const double* queries, 
 }  // namespace
 
 int32_t handlebody::check_given(const GivenData& data, hb_interpolant** out) {
-  if (!out || (data.count > 0 && (!data.points || !data.values)))
-    return fail({HB_ERROR_INVALID_SHAPE, {"A pointer to points, values or the result is NULL."}, {"Pass valid pointers."}});
+  if (!out) return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the result is NULL."}, {"Pass a valid pointer."}});
   if (data.dimension == 0 || data.dimension > largest_dimension)
     return fail({HB_ERROR_INVALID_SHAPE, {data.dimension, " dimensions are not supported."}, {"Use 1 to 64 dimensions."}});
   if (data.outputs == 0)
     return fail({HB_ERROR_INVALID_SHAPE, {"The points have no values."}, {"Give one or more values a point."}});
-  return HB_OK;
+  return check_arrays({{data.points, "points", data.count, data.dimension}, {data.values, "values", data.count, data.outputs}});
 }
 
 extern "C" {
@@ -44,8 +48,9 @@ int32_t hb_interpolant_twins(hb_interpolant* interpolant, uint32_t* twins) {
 }
 
 int32_t hb_interpolant_evaluate(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out) {
-  if (const int32_t status = check_queries(*interpolant, queries, count)) return status;
-  interpolant->method->evaluate(queries, count, out);
+  auto& method = *interpolant->method;
+  if (const int32_t status = check_queries(*interpolant, queries, count, out, method.outputs())) return status;
+  method.evaluate(queries, static_cast<Index>(count), out);
   return HB_OK;
 }
 
@@ -54,14 +59,15 @@ int32_t hb_interpolant_gradient(hb_interpolant* interpolant, const double* queri
     return fail({HB_ERROR_INVALID_OPTION,
                  {"This method has no gradient: it has kinks."},
                  {"Use a smooth one, such as rbf() or movingLeastSquares()."}});
-  if (const int32_t status = check_queries(*interpolant, queries, count)) return status;
-  interpolant->method->gradient(queries, count, out);
+  auto& method = *interpolant->method;
+  if (const int32_t status = check_queries(*interpolant, queries, count, out, method.outputs() * method.dimension())) return status;
+  method.gradient(queries, static_cast<Index>(count), out);
   return HB_OK;
 }
 
 int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out) {
-  if (const int32_t status = check_queries(*interpolant, queries, count)) return status;
   auto& method = *interpolant->method;
+  if (const int32_t status = check_queries(*interpolant, queries, count, out, method.size())) return status;
   for (uint32_t q = 0; q < count; ++q, queries += method.dimension(), out += method.size()) method.weights(queries, out);
   return HB_OK;
 }

@@ -9,6 +9,7 @@
 #include "abi/host_kernel.hpp"
 #include "abi/support.hpp"
 
+using handlebody::check_arrays;
 using handlebody::fail;
 using handlebody::Irbf;
 using handlebody::KernelKind;
@@ -27,7 +28,7 @@ handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
   grid.spacing = body.spacing;
   double cells = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    grid.dims[axis] = static_cast<int32_t>(std::min(body.dims[axis], 1u << 20));
+    grid.dims[axis] = handlebody::signed_count(body.dims[axis]);
     cells *= grid.dims[axis];
   }
   const bool usable = cells > 0 && cells <= 6.4e7 && grid.origin.allFinite() && std::isfinite(grid.spacing) && grid.spacing > 0;
@@ -53,6 +54,14 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
                  {"Use those that the header lists."},
                  HB_CULPRIT_OPTION});
   }
+  if (auto checked = handlebody::check_mesh_size(from->vertex_count, from->triangle_count); !checked) return fail(checked.error());
+  if (const int32_t status = check_arrays({{from->positions, "positions", from->vertex_count, 3},
+                                           {from->triangles, "triangles", from->triangle_count, 3},
+                                           {from->voxels, "voxels", from->voxel_count},
+                                           {from->centers, "centers", from->center_count},
+                                           {from->distances, "distances", from->center_count, from->voxel_count},
+                                           {from->spheres, "spheres", from->sphere_count, 4}}))
+    return status;
   auto domain = read_domain(*from);
   if (!domain) return fail(domain.error());
   handlebody::Body body;
@@ -88,6 +97,7 @@ int32_t hb_irbf_share(const hb_irbf* irbf, hb_irbf** shared) {
 }
 
 int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count) {
+  if (const int32_t status = check_arrays({{points, "handles", count, 3}, {kinds, "kinds", count}})) return status;
   std::vector<handlebody::HandleKind> list(count);
   std::transform(kinds, kinds + count, list.begin(),
                  [](uint32_t kind) { return kind == 1 ? handlebody::HandleKind::rotation : handlebody::HandleKind::position; });
@@ -120,6 +130,7 @@ int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normal
 }
 
 int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out) {
+  if (const int32_t status = check_arrays({{points, "points", count, 3}, {out, "results", count, 3}})) return status;
   const auto deformed = irbf->irbf->evaluate(Eigen::Map<const Points>(points, count, 3));
   if (!deformed) return fail(deformed.error());
   Eigen::Map<Points>(out, count, 3) = *deformed;
@@ -127,6 +138,7 @@ int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, do
 }
 
 int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t count, hb_irbf_quality* out) {
+  if (const int32_t status = check_arrays({{tetrahedra, "tetrahedra", count, 4}})) return status;
   const auto quality = irbf->irbf->quality(Eigen::Map<const handlebody::Tetrahedra>(tetrahedra, count, 4));
   if (!quality) return fail(quality.error());
   out->volume_ratio = quality->volume_ratio;

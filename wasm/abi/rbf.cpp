@@ -16,6 +16,13 @@ int32_t fail_not_rbf() {
   return fail({HB_ERROR_INVALID_OPTION, {"This interpolant is not a radial basis fit."}, {"Ask one that rbf() made."}});
 }
 
+/** Checks all that is counted, the options' arrays among it. */
+int32_t check_given(const GivenData& data, const hb_rbf_options& options, hb_interpolant** out) {
+  if (const int32_t status = check_given(data, out)) return status;
+  return check_arrays({{options.centers, "centers", options.centers ? options.center_count : 0, data.dimension},
+                       {options.widths, "widths", options.widths ? options.center_count : 0}});
+}
+
 /** The options as the core takes them; INVALID_OPTION for numbers without a meaning. */
 Result<RbfOptions> read_options(const hb_rbf_options& from, uint32_t dimension) {
   if (from.kernel > static_cast<unsigned>(KernelKind::custom) || from.width_choice >= width_choice_count ||
@@ -78,7 +85,7 @@ int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_co
 int32_t hb_rbf_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
                       const hb_rbf_options* options, hb_interpolant** out) {
   const GivenData data{points, values, count, dimension, outputs};
-  if (const int32_t status = check_given(data, out)) return status;
+  if (const int32_t status = check_given(data, *options, out)) return status;
   auto read = read_options(*options, dimension);
   if (!read) return fail(read.error());
   return deliver(Rbf::create(data.point_rows(), data.value_rows(), *read), out);
@@ -129,12 +136,12 @@ int32_t hb_find_outliers(const double* points, const double* values, uint32_t co
                          const hb_rbf_options* options, hb_outlier_search* search) {
   const GivenData data{points, values, count, dimension, outputs};
   hb_interpolant* none = nullptr;
-  if (const int32_t status = check_given(data, &none)) return status;
+  if (const int32_t status = check_given(data, *options, &none)) return status;
   if (search->method >= outlier_method_count)
     return fail({HB_ERROR_INVALID_OPTION, {"The method is unknown."}, {"Use 0, 1 or 2."}, HB_CULPRIT_OPTION});
   auto read = read_options(*options, dimension);
   if (!read) return fail(read.error());
-  const OutlierOptions how{static_cast<OutlierMethod>(search->method), search->threshold, static_cast<Index>(search->most)};
+  const OutlierOptions how{static_cast<OutlierMethod>(search->method), search->threshold, signed_count(search->most)};
   const auto report = find_outliers(data.point_rows(), data.value_rows(), *read, how);
   if (!report) return fail(report.error());
   std::copy(report->scores.data(), report->scores.data() + report->scores.size(), search->scores);

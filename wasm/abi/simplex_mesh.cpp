@@ -15,6 +15,15 @@ static_assert(sizeof(FlatVertex) == sizeof(hb_flat_vertex) && offsetof(FlatVerte
 
 namespace handlebody {
 
+int32_t check_mesh(const hb_simplex_mesh& mesh) {
+  const auto [positions, simplices, vertex_count, dimension, simplex_count, corners] = mesh;
+  return check_arrays({{positions, "positions", vertex_count, dimension}, {simplices, "simplices", simplex_count, corners}});
+}
+
+int32_t check_held(const hb_held_vertices& held) {
+  return check_arrays({{held.vertices, "held vertices", held.count}, {held.owners, "owners", held.count}});
+}
+
 Result<SimplexMesh> read_mesh(const hb_simplex_mesh& mesh) {
   const auto [positions, simplices, vertex_count, dimension, simplex_count, corners] = mesh;
   const bool shaped = (dimension == 2 && corners == 3) || (dimension == 3 && (corners == 3 || corners == 4));
@@ -29,7 +38,7 @@ Result<SimplexMesh> read_mesh(const hb_simplex_mesh& mesh) {
 
 HeldVertices read_held(const hb_held_vertices& held) {
   const auto [vertices, owners, count, handle_count] = held;
-  return {{vertices, vertices + count}, {owners, owners + count}, static_cast<Index>(handle_count)};
+  return {{vertices, vertices + count}, {owners, owners + count}, signed_count(handle_count)};
 }
 
 }  // namespace handlebody
@@ -37,8 +46,9 @@ HeldVertices read_held(const hb_held_vertices& held) {
 extern "C" {
 
 int32_t hb_sound_mesh_create(const hb_simplex_mesh* mesh, uint32_t weld, uint32_t strict, hb_sound_mesh** sound) {
-  if (!mesh || !sound || (!mesh->positions && mesh->vertex_count > 0) || (!mesh->simplices && mesh->simplex_count > 0))
+  if (!mesh || !sound)
     return fail({HB_ERROR_INVALID_SHAPE, {"A pointer to the mesh or the result is NULL."}, {"Pass valid pointers."}});
+  if (const int32_t status = check_mesh(*mesh)) return status;
   if (weld > 1 || strict > 1)
     return fail({HB_ERROR_INVALID_OPTION,
                  {"Welding ", weld, " or strictness ", strict, " is unknown."},

@@ -25,8 +25,12 @@ int32_t deliver(Result<std::unique_ptr<Skin>> made, hb_skin** out) {
   return HB_OK;
 }
 
+int32_t check_shape(const double* positions, const double* weights, uint32_t count, uint32_t dimension, uint32_t handle_count) {
+  return check_arrays({{positions, "positions", count, dimension}, {weights, "weights", count, handle_count}});
+}
+
 WeightedShape shape(const double* positions, const double* weights, uint32_t count, uint32_t dimension, uint32_t handle_count) {
-  return {positions, weights, static_cast<Index>(count), static_cast<Index>(dimension), static_cast<Index>(handle_count)};
+  return {positions, weights, static_cast<Index>(count), static_cast<Index>(dimension), signed_count(handle_count)};
 }
 
 }  // namespace
@@ -35,12 +39,14 @@ extern "C" {
 
 int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                uint32_t handle_count, uint32_t compiled, hb_skin** skin) {
+  if (const int32_t status = check_shape(positions, weights, count, dimension, handle_count)) return status;
   const auto form = compiled == 0 ? LinearBlendForm::direct : LinearBlendForm::compiled;
   return deliver(linear_blend(shape(positions, weights, count, dimension, handle_count), form), skin);
 }
 
 int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                   uint32_t handle_count, hb_skin** skin) {
+  if (const int32_t status = check_shape(positions, weights, count, dimension, handle_count)) return status;
   return deliver(dual_quaternion_blend(shape(positions, weights, count, dimension, handle_count)), skin);
 }
 
@@ -59,6 +65,8 @@ int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices*
     return fail({HB_ERROR_INVALID_SHAPE,
                  {"Energies are minimized in the plane; the mesh has ", mesh->dimension, " dimensions."},
                  {"Give two coordinates a vertex."}});
+  if (const int32_t status = check_mesh(*mesh)) return status;
+  if (const int32_t status = check_held(*handles)) return status;
   auto read = read_mesh(*mesh);
   if (!read) return fail(read.error());
   auto made = energy == 3 ? as_rigid_as_possible(std::move(*read), read_held(*handles))

@@ -28,6 +28,7 @@ int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, 
                  {"Use those that the header lists."},
                  HB_CULPRIT_OPTION});
   }
+  if (const int32_t status = check_mesh(*mesh)) return status;
   auto read = read_mesh(*mesh);
   if (!read) return fail(read.error());
   auto made = PolyharmonicWeights::create(std::move(*read), static_cast<int>(order), static_cast<Mass>(mass));
@@ -37,6 +38,7 @@ int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, 
 }
 
 int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles) {
+  if (const int32_t status = check_held(*handles)) return status;
   const auto done = weights->weights->set_handles(read_held(*handles));
   if (!done) return fail(done.error());
   weights->bounding.reset();
@@ -75,6 +77,8 @@ int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tol
                  {"Give a part of the energy, such as 1e-6."},
                  HB_CULPRIT_OPTION});
   const PolyharmonicWeights& from = *weights->weights;
+  if (from.weights().size() == 0)
+    return fail({HB_ERROR_HANDLES_MISSING, {"There are no weights to bound before handles are set."}, {"Set handles first."}});
   BoundedWeightsOptions options;
   options.tolerance = tolerance;
   auto made = BoundedWeights::create(from.energy(), from.mass(), from.held(), from.weights(), options);
@@ -103,9 +107,12 @@ void hb_skinning_weights_free(hb_skinning_weights* weights) {
 
 int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support,
                            hb_weight_measures* measures) {
+  if (const int32_t status = check_mesh(*mesh)) return status;
+  if (const int32_t status = check_held(*handles)) return status;
+  if (const int32_t status = check_arrays({{weights, "weights", mesh->vertex_count, handles->handle_count}})) return status;
   auto read = read_mesh(*mesh);
   if (!read) return fail(read.error());
-  const Eigen::Map<const Matrix> given(weights, static_cast<Index>(mesh->vertex_count), static_cast<Index>(handles->handle_count));
+  const Eigen::Map<const Matrix> given(weights, static_cast<Index>(mesh->vertex_count), signed_count(handles->handle_count));
   const auto made = measure_weights(*read, read_held(*handles), given);
   if (!made) return fail(made.error());
   std::copy(made->support.data(), made->support.data() + made->support.size(), support);

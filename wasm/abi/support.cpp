@@ -26,6 +26,19 @@ int32_t handlebody::fail(const Error& error) {
   return error.code;
 }
 
+int32_t handlebody::check_arrays(std::initializer_list<GivenArray> arrays) {
+  for (const auto& [data, name, rows, columns, bytes] : arrays) {
+    const double numbers = static_cast<double>(rows) * columns;
+    if (numbers >= 0x1p31 || numbers * static_cast<double>(bytes) >= 0x1p32)
+      return fail({HB_ERROR_INVALID_SHAPE,
+                   {"The array of ", name, " would hold ", rows, " × ", columns, " numbers, more than memory does."},
+                   {"Pass the counts that the arrays have."}});
+    if (!data && numbers > 0)
+      return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the ", name, " is NULL."}, {"Pass a valid pointer."}});
+  }
+  return HB_OK;
+}
+
 extern "C" {
 
 uint32_t hb_abi_version(void) {
@@ -37,7 +50,8 @@ const hb_error* hb_last_error(void) {
 }
 
 void* hb_alloc(uint32_t bytes) {
-  return std::malloc(bytes);
+  // Not malloc(), which aligns to 8 bytes in wasm32. A size that cannot be rounded up is none that there is memory for.
+  return bytes < 0xffffff00 ? std::aligned_alloc(16, (std::size_t{bytes} / 16 + 1) * 16) : nullptr;
 }
 
 void hb_release(void* memory) {

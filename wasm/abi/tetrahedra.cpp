@@ -14,10 +14,12 @@ extern "C" {
 
 int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
                              uint32_t resolution, hb_tetrahedra** out) {
+  if (const int32_t status = check_arrays({{positions, "positions", vertex_count, 3}, {triangles, "triangles", triangle_count, 3}}))
+    return status;
   SimplexMesh surface;
   surface.positions = Eigen::Map<const Matrix>(positions, static_cast<Index>(vertex_count), 3);
   surface.simplices = Eigen::Map<const Simplices>(triangles, static_cast<Index>(triangle_count), 3);
-  auto made = make_voxel_tetrahedra(surface, static_cast<int>(resolution < 1000 ? resolution : 1000));
+  auto made = make_voxel_tetrahedra(surface, signed_count(resolution));
   if (!made) return fail(made.error());
   *out = new hb_tetrahedra{std::move(*made)};
   return HB_OK;

@@ -53,10 +53,10 @@ Result<MeanValueDistance> MeanValueDistance::begin(const ConstPoints& positions,
                                         static_cast<double>(triangles.rows()) * (most_coordinates + 40) +
                                         static_cast<double>(domain.size()) * most_coordinates);
   if (bytes > most_bytes) {
-    return Error(HB_ERROR_OUT_OF_MEMORY,
-                 {"Mean value distances on ", positions.rows(), " vertices and ", domain.size(), " voxels would take ",
-                  static_cast<int>(bytes / 1e6), " MB."},
-                 {"Simplify the mesh, use a coarser resolution, or use another distance."});
+    return Error(
+        HB_ERROR_OUT_OF_MEMORY,
+        {"Mean value distances on ", positions.rows(), " vertices and ", domain.size(), " voxels would take ", bytes / 1e6, " MB."},
+        {"Simplify the mesh, use a coarser resolution, or use another distance."});
   }
   MeanValueDistance made;
   made.domain_ = &domain;

@@ -33,7 +33,7 @@ void LeastNormWeights::orthonormalize() {
   parts[0] = 1;
   for (Index i = 0; i < count_; ++i) {
     basis_(i, 0) = 1;
-    std::copy(point(i), point(i) + columns - 1, &basis_(i, 0) + 1);
+    std::copy_n(point(i), columns - 1, &basis_(i, 0) + 1);
   }
   const auto subtract = [&](Index c, Index from) {
     const double along = product(c, from);

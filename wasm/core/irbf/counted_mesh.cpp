@@ -54,10 +54,8 @@ LeftOut find_left_out(const ConstPoints& positions, const std::vector<std::uint8
 
 Result<CountedMesh> count_mesh(const ConstPoints& positions, const ConstTriangles& triangles, std::vector<std::uint8_t> used) {
   const auto count = static_cast<std::size_t>(positions.rows());
-  if (used.empty()) {
-    used.assign(count, triangles.rows() == 0);
-    for (Index k = 0; k < triangles.size(); ++k) used[triangles.data()[k]] = 1;
-  }
+  if (used.empty()) used.assign(count, triangles.rows() == 0);
+  for (Index k = 0; k < triangles.size(); ++k) used[triangles.data()[k]] = 1;
   CountedMesh mesh;
   take(mesh, positions, triangles, used);
   SoundSurface sound = sound_surface(mesh.positions, mesh.triangles);

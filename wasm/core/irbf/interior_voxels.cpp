@@ -187,7 +187,7 @@ Result<Done> InteriorVoxels::make_domain() {
   const double bytes = static_cast<double>(inside_.size()) * static_cast<double>(options_.centers) * sizeof(std::uint16_t);
   if (bytes > 2e9) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
-                 {options_.centers, " centers × ", inside_.size(), " voxels would take ", static_cast<int>(bytes / 1e6), " MB."},
+                 {options_.centers, " centers × ", inside_.size(), " voxels would take ", bytes / 1e6, " MB."},
                  {"Use fewer centers or a coarser resolution."});
   }
   warn_of_few(std::ssize(unbridged));

@@ -194,6 +194,11 @@ void Irbf::deform(float* positions, const float* rest_normals, float* normals) {
 }
 
 Result<Points> Irbf::evaluate(const ConstPoints& points) const {
+  for (Index i = 0; i < points.rows(); ++i) {
+    if (points.row(i).allFinite()) continue;
+    return Error(HB_ERROR_QUERY_NOT_FINITE, {"Point ", i, " has a coordinate that is not a finite number."},
+                 {"Ask at finite coordinates."}, HB_CULPRIT_QUERY, i);
+  }
   const Points solver =
       (points.rowwise() - prepared_->body.normalization.center.transpose()) / prepared_->body.normalization.diagonal;
   InteriorSamples samples;

@@ -57,7 +57,7 @@ class Irbf {
   void deform(float* positions, const float* rest_normals, float* normals);
 
   /** The deformation of any points (k×3, model units), in double precision. Far outside the model the affine part dominates, with
-   *  the basis of the nearest voxels. Fails as Basis::evaluate does. */
+   *  the basis of the nearest voxels. Fails with QUERY_NOT_FINITE, or as Basis::evaluate does. */
   Result<Points> evaluate(const ConstPoints& points) const;
 
   /** How the present deformation treats volume and shape: on `tetrahedra` of vertices as stored (m×4), or on those that voxels make

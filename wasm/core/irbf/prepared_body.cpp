@@ -50,7 +50,7 @@ Result<std::shared_ptr<const PreparedBody>> PreparedBody::create(Body body, cons
   if (bytes > most_bytes) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
                  {"This body, with ", body.centers.size(), " centers, ", body.spheres.size(), " spheres and ",
-                  body.positions.rows(), " vertices, would take ", static_cast<int>(bytes / 1e6), " MB."},
+                  body.positions.rows(), " vertices, would take ", bytes / 1e6, " MB."},
                  {"Bake it with fewer centers or spheres, or simplify the mesh."});
   }
   auto prepared = std::make_shared<PreparedBody>(std::move(body), options);

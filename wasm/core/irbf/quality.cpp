@@ -76,7 +76,7 @@ namespace {
 
 Error too_large(Index voxels, double bytes) {
   return {HB_ERROR_OUT_OF_MEMORY,
-          {"Measuring ", voxels, " voxels takes ", static_cast<int>(bytes / 1e6), " MB."},
+          {"Measuring ", voxels, " voxels takes ", bytes / 1e6, " MB."},
           {"Measure tetrahedra of your own, or bake at a lower resolution."}};
 }
 

@@ -12,7 +12,8 @@ Result<Done> check(const HeldVertices& held, Index vertex_count, Indices& owner_
     return Error(HB_ERROR_HANDLES_MISSING, {"There is no handle, so there is nothing that weights could belong to."},
                  {"Give one or more."});
   }
-  Indices holds(held.handle_count, 0);
+  // Of more handles than vertices are held one holds nothing, which the first of them tell.
+  Indices holds(std::min<std::size_t>(held.handle_count, held.vertices.size() + 1), 0);
   owner_of.assign(vertex_count, no_index);
   for (std::size_t k = 0; k < held.vertices.size(); ++k) {
     const std::uint32_t vertex = held.vertices[k], owner = held.owners[k];
@@ -30,7 +31,7 @@ Result<Done> check(const HeldVertices& held, Index vertex_count, Indices& owner_
                    {"Move one of them to another vertex, or refine the mesh there."}, HB_CULPRIT_HANDLE, owner);
     }
     present = owner;
-    ++holds[owner];
+    if (owner < holds.size()) ++holds[owner];
   }
   for (std::size_t owner = 0; owner < holds.size(); ++owner) {
     if (holds[owner] > 0) continue;

@@ -48,7 +48,7 @@ Result<Done> check(const SimplexMesh& mesh, const HeldVertices& held, const Eige
       static_cast<double>(mesh.simplices.rows()) * (12 * corners * (corners - 1) + 8 * 13 + corners * (4 * corners + 12));
   if (bytes <= most_bytes) return Done{};
   return Error(HB_ERROR_OUT_OF_MEMORY,
-               {"Measuring ", held.handle_count, " weights at ", n, " vertices takes ", static_cast<int>(bytes / 1e6), " MB."},
+               {"Measuring ", held.handle_count, " weights at ", n, " vertices takes ", bytes / 1e6, " MB."},
                {"Measure fewer handles at a time, or a simpler mesh."});
 }
 

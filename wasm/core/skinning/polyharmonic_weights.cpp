@@ -11,6 +11,7 @@ namespace handlebody {
 namespace {
 
 constexpr std::size_t most_updates = 64;
+constexpr double most_weights = 0x1p27;
 constexpr double most_error[] = {1e-6, 1e-6, 1e-4};  // of the sums of weights, for each order: more is worth another factorization
 constexpr double worst_error = 0.05;                 // more is no answer
 
@@ -51,6 +52,12 @@ Result<Done> PolyharmonicWeights::set_energy(double thinnest) {
 Result<Done> PolyharmonicWeights::set_handles(HeldVertices held) {
   auto islands = complete(held, mesh_, parts_);
   if (!islands) return islands.error();
+  const double numbers = static_cast<double>(mesh_.positions.rows()) * static_cast<double>(held.handle_count);
+  if (numbers > most_weights)
+    return Error(HB_ERROR_OUT_OF_MEMORY,
+                 {"The weights of ", held.handle_count, " handles at ", mesh_.positions.rows(), " vertices take ", numbers * 8e-9,
+                  " GB; 1 GB is the most that is allocated."},
+                 {"Use fewer handles or fewer vertices."});
   Change change;
   const bool updated = solver_ && find_change(held, change) && pays(change) && update(held, change);
   if (!updated) {
