@@ -1,0 +1,88 @@
+// `npm run fuzz`: looks for inputs of the C interface that crash, hang, or break what its header promises, by Clang's libFuzzer and
+// sanitizers. tests/fuzz holds the targets, one for each group of functions; a crash is minimized into tests/repro/fuzz.
+//
+//   npm run fuzz                              all targets, a minute each
+//   npm run fuzz -- irbf bake --seconds 600   these two, ten minutes each; or --runs 200000
+//   npm run fuzz -- --check                   what CI does: all that is committed once, natively and in wasm, then some seconds of fuzzing
+//   npm run fuzz -- --coverage                lines of the files behind each target that its inputs reach
+//   npm run fuzz -- --seeds                   writes the seeds that are committed, from what fuzzing has found so far
+import { readdirSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { buildFuzz, buildReplays, fuzz, fuzzTargets, packSeeds, replay, unfuzzed } from './lib/fuzz.mjs';
+import { coverTarget } from './lib/fuzz-coverage.mjs';
+import { at } from './lib/paths.mjs';
+import { runMain } from './lib/run.mjs';
+
+const CHECK_SECONDS = 4;
+
+/** @param {string[]} args */
+function readArguments(args) {
+  /** @type {{ named: string[], seconds?: number, runs?: number, modes: Set<string> }} */
+  const options = { named: [], modes: new Set() };
+  for (let k = 0; k < args.length; ++k) {
+    const arg = /** @type {string} */ (args[k]);
+    if (arg === '--seconds' || arg === '--runs') {
+      const value = Number(args[++k]);
+      if (!Number.isInteger(value) || value < 1) throw new Error(`${arg} wants a whole number from 1 on.`);
+      options[arg === '--runs' ? 'runs' : 'seconds'] = value;
+    } else if (arg === '--check' || arg === '--coverage' || arg === '--seeds') options.modes.add(arg);
+    else if (arg.startsWith('--')) throw new Error(`There is no ${arg}: use --seconds, --runs, --check, --coverage or --seeds.`);
+    else options.named.push(arg);
+  }
+  return options;
+}
+
+/** @param {import('./lib/fuzz.mjs').FuzzResult} result */
+function say({ name, executions, reached, failed }) {
+  const part = executions > 0 ? ((100 * reached) / executions).toFixed(0) : '0';
+  console.log(`${name}: ${executions} executions, ${reached} (${part} %) reached the algorithm${failed ? ': FAILED' : ''}`);
+}
+
+/** Each function of the header is in a target; otherwise the check says which is not. */
+function checkCalls() {
+  const folder = at('tests', 'fuzz');
+  const sources = readdirSync(folder).filter((file) => /\.(cpp|hpp)$/.test(file));
+  const missing = unfuzzed(
+    readFileSync(at('wasm', 'abi', 'handlebody.h'), 'utf8'),
+    sources.map((file) => readFileSync(path.join(folder, file), 'utf8')),
+  );
+  for (const name of missing) console.error(`${name} is in no target of tests/fuzz.`);
+  return missing.length === 0;
+}
+
+await runMain(async () => {
+  const { named, seconds, runs, modes } = readArguments(process.argv.slice(2));
+  const all = fuzzTargets();
+  const unknown = named.find((name) => !all.some((target) => target.name === name));
+  if (unknown) throw new Error(`There is no target called "${unknown}": use ${all.map((target) => target.name).join(', ')}.`);
+  const targets = named.length > 0 ? all.filter((target) => named.includes(target.name)) : all;
+  let sound = checkCalls();
+
+  if (modes.has('--coverage')) {
+    const folder = await buildFuzz('coverage', targets);
+    for (const target of targets) sound = (await coverTarget(folder, target)) && sound;
+    return sound ? 0 : 1;
+  }
+  const folder = await buildFuzz('fuzz', targets);
+  if (modes.has('--seeds')) {
+    for (const target of targets) console.log(`${target.name}: ${await packSeeds(folder, target)} seeds`);
+    return sound ? 0 : 1;
+  }
+  if (modes.has('--check')) {
+    const program = await buildReplays(targets);
+    for (const target of targets) {
+      const result = await replay(target, target.unpack(), (list) => [process.execPath, [program(target), list]]);
+      console.log(
+        `${target.name}, in wasm: ${result.files} inputs, the slowest in ${result.slowest} s${result.failed ? ': FAILED' : ''}`,
+      );
+      sound &&= !result.failed;
+    }
+  }
+  const limits = modes.has('--check') ? { seconds: CHECK_SECONDS } : { ...(runs ? { runs } : { seconds: seconds ?? 60 }) };
+  for (const target of targets) {
+    const result = await fuzz(folder, target, limits);
+    say(result);
+    sound &&= !result.failed;
+  }
+  return sound ? 0 : 1;
+});
