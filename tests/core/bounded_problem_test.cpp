@@ -41,6 +41,17 @@ TEST_CASE("projection to a simplex: feasible, and no nearer point on a line to a
   }
 }
 
+TEST_CASE("projection to a simplex: ends, and on the simplex, where 1 is nothing beside the numbers") {
+  for (const double size : {1e15, 1e16, 1e17, 1e300, -1e17}) {
+    for (Vector w : {Vector::Constant(3, size).eval(), Vector{{size, size, 0}}, Vector{{0, size, -size}}}) {
+      CAPTURE(w);
+      project_to_simplex(w.data(), w.size());
+      CHECK(w.minCoeff() >= 0);
+      CHECK(w.sum() == doctest::Approx(1).epsilon(1e-15));
+    }
+  }
+}
+
 TEST_CASE("bounded problem: its energy and forces are those of all vertices' weights (seed 1109)") {
   std::mt19937 random(1109);
   const auto weights = unbounded(random);

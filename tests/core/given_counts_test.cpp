@@ -125,6 +125,18 @@ TEST_CASE("meshes, clouds and volumes of impossible counts are refused") {
   }
 }
 
+TEST_CASE("a vertex of triangles counts, whatever the list of used vertices says") {
+  const std::array<std::uint8_t, 4> none{};
+  hb_bake_options options{};
+  options.center_count = options.max_spheres = 4;
+  options.resolution = 8;
+  options.used = none.data();
+  hb_bake* bake = nullptr;
+  REQUIRE(hb_bake_begin(numbers.data(), 4, indices.data(), 4, &options, &bake) == HB_OK);
+  for (double progress = 0; progress < 1;) REQUIRE(hb_bake_step(bake, &progress) == HB_OK);
+  hb_bake_free(bake);
+}
+
 TEST_CASE("a baked body whose counts or numbers are impossible is refused") {
   hb_bake* bake = nullptr;
   hb_bake_options how{};

@@ -180,3 +180,22 @@ TEST_CASE("vertices that no triangle uses, copies of faces and faces without are
     }
   }
 }
+
+TEST_CASE("a vertex of no triangle gets corners that are there, wherever it is") {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const double x : {std::nan(""), infinite, -infinite, 1e300, -1e300, 1e10, 5.0}) {
+    test::MadeMesh box = test::made_box({1, 1, 1}, {2, 2, 2});
+    SimplexMesh surface{Matrix(box.positions.rows() + 1, 3), box.triangles};
+    surface.positions << box.positions, x, 0.5, x;
+    const auto made = make_voxel_tetrahedra(surface, 6);
+    REQUIRE(made);
+    CAPTURE(x);
+    for (const std::uint32_t corner : made->corners.back()) CHECK(corner < static_cast<std::uint32_t>(made->mesh.positions.rows()));
+    double sum = 0;
+    for (const double part : made->coordinates.back()) {
+      CHECK(part >= 0);
+      sum += part;
+    }
+    CHECK(sum == doctest::Approx(1));
+  }
+}

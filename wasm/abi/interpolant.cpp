@@ -30,10 +30,14 @@ int32_t check_queries(const hb_interpolant& interpolant, const double* queries, 
 
 }  // namespace
 
+int32_t handlebody::check_dimension(uint32_t dimension) {
+  if (dimension > 0 && dimension <= largest_dimension) return HB_OK;
+  return fail({HB_ERROR_INVALID_SHAPE, {dimension, " dimensions are not supported."}, {"Use 1 to 64 dimensions."}});
+}
+
 int32_t handlebody::check_given(const GivenData& data, hb_interpolant** out) {
   if (!out) return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the result is NULL."}, {"Pass a valid pointer."}});
-  if (data.dimension == 0 || data.dimension > largest_dimension)
-    return fail({HB_ERROR_INVALID_SHAPE, {data.dimension, " dimensions are not supported."}, {"Use 1 to 64 dimensions."}});
+  if (const int32_t status = check_dimension(data.dimension)) return status;
   if (data.outputs == 0)
     return fail({HB_ERROR_INVALID_SHAPE, {"The points have no values."}, {"Give one or more values a point."}});
   return check_arrays({{data.points, "points", data.count, data.dimension}, {data.values, "values", data.count, data.outputs}});

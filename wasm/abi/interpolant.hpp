@@ -25,6 +25,9 @@ struct GivenData {
   Eigen::Map<const Matrix> value_rows() const { return {values, static_cast<Index>(count), static_cast<Index>(outputs)}; }
 };
 
+/** HB_OK for 1 to 64 dimensions, or INVALID_SHAPE. */
+int32_t check_dimension(uint32_t dimension);
+
 /** HB_OK, or the error where no method accepts the counts and pointers. */
 int32_t check_given(const GivenData& data, hb_interpolant** out);
 

@@ -77,6 +77,7 @@ void list_near_pairs(const Rbf& rbf, double spacing, hb_rbf_report& report) {
 extern "C" {
 
 int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_count, int32_t degree) {
+  if (const int32_t status = check_dimension(dimension)) return status;
   const auto tail = polynomial_count(std::clamp(degree, -1, 2), static_cast<Index>(dimension));
   auto fits = check_size(count, center_count ? center_count : count, static_cast<double>(tail));
   return fits ? HB_OK : fail(fits.error());

@@ -15,7 +15,8 @@ namespace handlebody {
 
 namespace {
 
-constexpr double near = 1e-9;  // of a voxel
+constexpr double near = 1e-9;     // of a voxel
+constexpr double farthest = 1e9;  // voxels
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /** Whether a triangle and a cube about the origin touch: no plane lies between them (Akenine-Möller 2001). */
@@ -161,7 +162,9 @@ Result<VoxelTetrahedra> make_voxel_tetrahedra(const SimplexMesh& surface, int re
   result.corners.resize(positions.rows());
   result.coordinates.resize(result.corners.size());
   for (std::size_t p = 0; p < result.corners.size(); ++p) {
-    const Vector3 place = (positions.row(static_cast<Index>(p)).transpose() - grid.origin) / grid.spacing;
+    // A vertex in no triangle may be anywhere, and nowhere.
+    Vector3 place = (positions.row(static_cast<Index>(p)).transpose() - grid.origin) / grid.spacing;
+    place = place.unaryExpr([](double x) { return std::isnan(x) ? 0 : std::clamp(x, -farthest, farthest); });
     std::array<double, 3> part;
     const std::array<std::int32_t, 3> cell = locate(grid, marked, place, part);
     // The place is in the tetrahedron whose axes have descending parts; coordinates are the differences of these.

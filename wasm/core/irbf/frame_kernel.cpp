@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace handlebody {
 
@@ -81,7 +82,8 @@ void FrameKernel::store_fixed(const MatrixF& matrix) {
     means_[c] = means[c];
     const double reach = std::max(high[c] - means[c], means[c] - low[c]);
     units_[c] = reach / most;
-    scales[c] = reach > 0 ? static_cast<float>(most / reach) : 0;
+    const double scale = most / reach;
+    scales[c] = scale <= std::numeric_limits<float>::max() ? static_cast<float>(scale) : 0;
   }
   for (Index v = 0; v < vertices_; ++v) {
     FixedTile* row = fixed_.data() + v / lanes * pairs;
@@ -91,7 +93,8 @@ void FrameKernel::store_fixed(const MatrixF& matrix) {
       float sum = 0;
       for (const Index end = std::min(columns_, c + 2 * chunk); c < end; ++c) {
         const float scaled = (numbers[c] - means[c]) * scales[c];
-        const float code = std::clamp(std::floor(scaled + 0.5f), -32767.f, 32767.f);
+        const float code =
+            std::max(-32767.f, std::min(32767.f, std::floor(scaled + 0.5f)));  // in this order, a number also for NaN
         row[c / 2][quad][v % 4 * 2 + c % 2] = static_cast<std::int16_t>(code);
         sum += std::abs(code);
       }

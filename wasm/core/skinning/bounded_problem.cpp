@@ -10,10 +10,10 @@
 namespace handlebody {
 
 void project_to_simplex(double* w, Index h) {
-  // max(w − θ, 0), where θ depends only on the numbers above it.
+  // max(w − θ, 0), where θ depends only on the numbers above it: fewer of them with each round, or, where rounding hides the 1,
+  // none.
   double theta = -1e300, sum = 0;
-  for (Index count = 0, before = -1; count != before;) {
-    before = count;
+  for (Index before = h + 1, count = 0;; before = count) {
     count = 0;
     sum = 0;
     for (Index j = 0; j < h; ++j) {
@@ -21,10 +21,16 @@ void project_to_simplex(double* w, Index h) {
       sum += w[j];
       ++count;
     }
+    if (count == 0 || count >= before) break;
     theta = (sum - 1) / static_cast<double>(count);
   }
   sum = 0;
+  const Index largest = std::max_element(w, w + h) - w;
   for (Index j = 0; j < h; ++j) sum += w[j] = std::max(w[j] - theta, 0.0);
+  if (!(sum > 0)) {
+    std::fill(w, w + h, 0.0);
+    w[largest] = sum = 1;
+  }
   for (Index j = 0; j < h; ++j) w[j] /= sum;
 }
 

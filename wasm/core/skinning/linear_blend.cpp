@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace handlebody {
 namespace {
@@ -79,8 +80,7 @@ void LinearBlend::stack_transforms() {
 /** Rows of four vertices from d quads of their coordinates; in space also one number too many, which the next call overwrites. */
 template <Index d>
 void store(const Quad* moved, float* out) {
-  using Unaligned = float __attribute__((vector_size(16), aligned(4)));
-  const auto put = [](float* to, Quad row) { *reinterpret_cast<Unaligned*>(to) = row; };
+  const auto put = [](float* to, Quad row) { std::memcpy(to, &row, sizeof row); };  // which need not be aligned
   const Quad low = __builtin_shufflevector(moved[0], moved[1], 0, 4, 1, 5),
              high = __builtin_shufflevector(moved[0], moved[1], 2, 6, 3, 7);
   if constexpr (d == 2) {
