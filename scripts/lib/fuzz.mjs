@@ -132,7 +132,14 @@ export async function fuzz(folder, target, { seconds, runs }) {
     ...(seconds === undefined ? [] : [`-max_total_time=${seconds}`]),
     ...(runs === undefined ? [] : [`-runs=${runs}`]),
   ];
-  const common = [`-timeout=${TIMEOUT}`, '-rss_limit_mb=3000', `-max_len=${LONGEST}`, '-len_control=0', '-entropic=0', '-print_funcs=0'];
+  const common = [
+    `-timeout=${TIMEOUT}`,
+    '-rss_limit_mb=3000',
+    `-max_len=${LONGEST}`,
+    '-len_control=0',
+    '-entropic=0',
+    '-print_funcs=0',
+  ];
   const { status, output } = await runFuzzer(
     program,
     [...common, ...limits, '-print_final_stats=0', `-artifact_prefix=${found}/`, target.corpus, seeds],

@@ -211,4 +211,7 @@ TEST_CASE("targets that are no numbers are named, as far as the handle reads the
   CHECK(code_with(16, 0) == HB_ERROR_TARGET_NOT_FINITE);                                 // a quaternion of length 0
   CHECK(code_with(0, 1e7) == HB_ERROR_TARGET_NOT_FINITE);                                // a million models away
   CHECK(code_with(0, 1e5) == HB_OK);
+  CHECK(code_with(17, -1e7) == HB_ERROR_TARGET_NOT_FINITE);  // as large
+  CHECK(code_with(17, -1e5) == HB_OK);
+  CHECK(code_with(13, 1e200) == HB_ERROR_TARGET_NOT_FINITE);  // a quaternion whose square is none
 }

@@ -11,10 +11,10 @@ FUZZ(bytes) {
   Owned<hb_pose_space_free> space;
   const std::uint32_t count = bytes.count(data.count), dimension = bytes.count(data.dimension), kernel = bytes.option(0, 7);
   const double width = bytes.flip() ? 0 : bytes.positive();
-  const auto degree = static_cast<std::int32_t>(bytes.option(0, 2)) - (method == 1 || bytes.wildly() ? 1 : 0);
+  // Normalized, −1 is no tail.
+  const auto degree = static_cast<std::int32_t>(bytes.option(method == 1 ? 0 : 1, 2) - 1);
   if (!space.make([&](hb_pose_space** out) {
-        return hb_pose_space_create(data.points.data(), count, dimension, method, kernel, width,
-                                    method == 0 && !bytes.wildly() ? degree % 2 : degree, out);
+        return hb_pose_space_create(data.points.data(), count, dimension, method, kernel, width, degree, out);
       }))
     return;
   reached();

@@ -21,7 +21,7 @@ hb_rbf_options choose(Bytes& bytes, const Scattered& data, std::vector<double>& 
   options.support = bytes.positive();
   options.kernel = bytes.option(0, 15);
   options.host_kernel = bytes.option(0, 4);
-  options.degree = static_cast<std::int32_t>(bytes.option(0, 3)) - 1;
+  options.degree = static_cast<std::int32_t>(bytes.option(0, 3) - 1);
   options.order = static_cast<std::int32_t>(bytes.option(2, 4));
   options.normalized = bytes.byte() < 40;
   options.width_choice = bytes.option(0, bytes.byte() < 200 ? 0 : 2);

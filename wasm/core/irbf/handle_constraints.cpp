@@ -11,6 +11,7 @@ namespace {
 /** Two handles share a place, or a target, when closer than this part of the diagonal. */
 constexpr double same_place = 1e-9;
 constexpr Index most_handles = 1024;
+constexpr double farthest = 1e6;  // that a target may be, in diagonals, and its scales
 
 /** Whether a point may carry a handle: inside, or so near to the surface that voxels cannot tell. Vertices always may. The surface
  * is used only where voxels do not decide: its tree takes longer to build than all else that handles need. */
@@ -107,16 +108,18 @@ Result<Done> HandleConstraints::read_targets(const double* targets, const Normal
     const Eigen::Map<const Eigen::Matrix<double, target_size, 1>> target(targets + k * target_size);
     const bool rotates = kinds_[k] == HandleKind::rotation;
     const Eigen::Quaterniond rotation(target(6), target(3), target(4), target(5));
-    const bool finite = rotates ? target.allFinite() : target.head<3>().allFinite();
-    if (rotates && finite && !(rotation.norm() > 1e-9))
+    const double length = rotation.norm();
+    const bool finite = rotates ? target.allFinite() && std::isfinite(length) : target.head<3>().allFinite();
+    if (rotates && finite && !(length > 1e-9))
       return Error(HB_ERROR_TARGET_NOT_FINITE, {"The rotation of handle ", k, " is (0, 0, 0, 0), which has no direction."},
                    {"Give a unit quaternion: (0, 0, 0, 1) does not turn."}, HB_CULPRIT_HANDLE, k);
-    // A target far beyond any screen is a mistake too, and its squares would overflow below.
-    if (!finite || (target.head<3>() - normalization.center).norm() > 1e6 * normalization.diagonal) {
-      return Error(HB_ERROR_TARGET_NOT_FINITE,
-                   {"The target of handle ", k, (finite ? " is a million model sizes away." : " is not a finite number.")},
-                   {"Give a position near the model and, for rotation handles, a unit quaternion and finite scales."},
-                   HB_CULPRIT_HANDLE, k);
+    // A target far beyond any screen, or as large, is a mistake too, and its squares would overflow below.
+    if (!finite || (target.head<3>() - normalization.center).norm() > farthest * normalization.diagonal ||
+        (rotates && target.tail<3>().norm() > farthest)) {
+      return Error(
+          HB_ERROR_TARGET_NOT_FINITE,
+          {"The target of handle ", k, (finite ? " is a million model sizes away, or as large." : " is not a finite number.")},
+          {"Give a position near the model and, for rotation handles, a unit quaternion and finite scales."}, HB_CULPRIT_HANDLE, k);
     }
     const Index other = same_as_[k];
     if (other >= 0) {
