@@ -10,6 +10,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { buildFuzz, buildReplays, fuzz, fuzzTargets, packSeeds, replay, unfuzzed } from './lib/fuzz.mjs';
 import { coverTarget } from './lib/fuzz-coverage.mjs';
+import { FOR_EMSCRIPTEN } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
 import { runMain } from './lib/run.mjs';
 
@@ -71,7 +72,10 @@ await runMain(async () => {
   if (modes.has('--check')) {
     const program = await buildReplays(targets);
     for (const target of targets) {
-      const result = await replay(target, target.unpack(), (list) => [process.execPath, [program(target), list]]);
+      const result = await replay(target, target.unpack(), (list) => [
+        process.execPath,
+        [...FOR_EMSCRIPTEN, program(target), list],
+      ]);
       console.log(
         `${target.name}, in wasm: ${result.files} inputs, the slowest in ${result.slowest} s${result.failed ? ': FAILED' : ''}`,
       );
