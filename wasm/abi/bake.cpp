@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "abi/support.hpp"
 
 using handlebody::Bake;
@@ -26,6 +27,7 @@ int32_t hb_mesh_check_size(double vertex_count, double triangle_count) {
 
 int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
                       const hb_bake_options* given, hb_bake** bake) {
+  handlebody::making();
   if (given->method >= handlebody::distance_method_count || given->packing >= handlebody::sphere_packing_count) {
     return handlebody::fail({HB_ERROR_INVALID_OPTION,
                              {"There is no distance method ", given->method, " or no packing ", given->packing, "."},
@@ -64,6 +66,7 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
 }
 
 int32_t hb_bake_step(hb_bake* bake, double* progress) {
+  handlebody::changing(bake);
   auto done = bake->bake->step();
   if (!done) return handlebody::fail(done.error());
   *progress = *done;
@@ -71,6 +74,7 @@ int32_t hb_bake_step(hb_bake* bake, double* progress) {
 }
 
 int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
+  handlebody::changing(bake);
   if (!bake->bake->finished()) {
     return handlebody::fail({HB_ERROR_INTERNAL, {"The bake is not finished."}, {"Step it until its progress is 1."}});
   }
@@ -118,5 +122,6 @@ uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* out
 
 void hb_bake_free(hb_bake* bake) {
   delete bake;
+  handlebody::gone(bake);
 }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "abi/support.hpp"
 
 using namespace handlebody;
@@ -16,6 +17,7 @@ extern "C" {
 
 int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundary, const uint32_t* samples, const double* values,
                                  uint32_t sample_count, hb_discrete_green** out) {
+  handlebody::making();
   if (!out) return fail({HB_ERROR_INVALID_SHAPE, {"The pointer to the result is NULL."}, {"Pass a valid pointer."}});
   if (const int32_t status = check_arrays({{samples, "samples", sample_count}, {values, "values", sample_count}})) return status;
   if (boundary >= grid_boundary_count)
@@ -31,12 +33,14 @@ int32_t hb_discrete_green_create(uint32_t size, uint32_t order, uint32_t boundar
 }
 
 int32_t hb_discrete_green_shape(hb_discrete_green* green, uint32_t* rows, uint32_t* nullity) {
+  handlebody::changing(green);
   *rows = static_cast<uint32_t>(green->green.difference().rows());
   *nullity = static_cast<uint32_t>(green->green.null_space().cols());
   return HB_OK;
 }
 
 int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, double* out) {
+  handlebody::changing(green);
   const auto copy = [out](const Matrix& matrix) { std::copy(matrix.data(), matrix.data() + matrix.size(), out); };
   const DiscreteGreen& made = green->green;
   switch (which) {
@@ -58,16 +62,19 @@ int32_t hb_discrete_green_matrix(hb_discrete_green* green, uint32_t which, doubl
 }
 
 int32_t hb_discrete_green_solve_grid(hb_discrete_green* green, double* out) {
+  handlebody::changing(green);
   green->green.solve_grid(out);
   return HB_OK;
 }
 
 int32_t hb_discrete_green_solve_radial(hb_discrete_green* green, double* out, double* weights) {
+  handlebody::changing(green);
   green->green.solve_radial(out, weights);
   return HB_OK;
 }
 
 void hb_discrete_green_free(hb_discrete_green* green) {
   delete green;
+  handlebody::gone(green);
 }
 }

@@ -54,6 +54,13 @@ HB_API const hb_error* hb_last_error(void);
 HB_API void* hb_alloc(uint32_t bytes);
 HB_API void hb_release(void* memory);
 
+/* Marks where a call of any of the functions below begins: all that is made or changed until the next mark belongs to it. */
+HB_API void hb_begin_call(void);
+
+/* After a trap: if memory ran out, gives back what the call made and returns the bytes that could not be had; earlier objects stay whole. 0
+ * after any other trap, and where memory does not come from here. */
+HB_API uint32_t hb_undo_call(void);
+
 /* ---- baking: interior distances and spheres of a mesh ------------------------------------------------------------------ */
 
 /* A mesh with all that IRBF needs to know about its interior. All lengths from `origin` on are in solver space. */

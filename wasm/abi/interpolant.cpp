@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abi/memory.hpp"
 #include "core/interpolation/shepard.hpp"
 
 using namespace handlebody;
@@ -46,12 +47,14 @@ int32_t handlebody::check_given(const GivenData& data, hb_interpolant** out) {
 extern "C" {
 
 int32_t hb_interpolant_twins(hb_interpolant* interpolant, uint32_t* twins) {
+  handlebody::changing(interpolant);
   const auto& twin_of = interpolant->method->data().twin_of;
   std::copy(twin_of.begin(), twin_of.end(), twins);
   return HB_OK;
 }
 
 int32_t hb_interpolant_evaluate(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out) {
+  handlebody::changing(interpolant);
   auto& method = *interpolant->method;
   if (const int32_t status = check_queries(*interpolant, queries, count, out, method.outputs())) return status;
   method.evaluate(queries, static_cast<Index>(count), out);
@@ -59,6 +62,7 @@ int32_t hb_interpolant_evaluate(hb_interpolant* interpolant, const double* queri
 }
 
 int32_t hb_interpolant_gradient(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out) {
+  handlebody::changing(interpolant);
   if (!interpolant->method->differentiable())
     return fail({HB_ERROR_INVALID_OPTION,
                  {"This method has no gradient: it has kinks."},
@@ -70,6 +74,7 @@ int32_t hb_interpolant_gradient(hb_interpolant* interpolant, const double* queri
 }
 
 int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double* queries, uint32_t count, double* out) {
+  handlebody::changing(interpolant);
   auto& method = *interpolant->method;
   if (const int32_t status = check_queries(*interpolant, queries, count, out, method.size())) return status;
   for (uint32_t q = 0; q < count; ++q, queries += method.dimension(), out += method.size()) method.weights(queries, out);
@@ -78,10 +83,12 @@ int32_t hb_interpolant_weights(hb_interpolant* interpolant, const double* querie
 
 void hb_interpolant_free(hb_interpolant* interpolant) {
   delete interpolant;
+  handlebody::gone(interpolant);
 }
 
 int32_t hb_shepard_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
                           double power, double epsilon, hb_interpolant** out) {
+  handlebody::making();
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;
   return deliver(Shepard::create(data.point_rows(), data.value_rows(), {power, epsilon}), out);

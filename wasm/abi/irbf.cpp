@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abi/host_kernel.hpp"
+#include "abi/memory.hpp"
 #include "abi/support.hpp"
 
 using handlebody::check_arrays;
@@ -47,6 +48,7 @@ handlebody::Result<handlebody::VoxelDomain> read_domain(const hb_body& body) {
 extern "C" {
 
 int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irbf** out) {
+  handlebody::making();
   if (given->constraints > 1 || given->precision > 1 || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
       given->order < 2 || given->order > 8) {
     return fail({HB_ERROR_INVALID_OPTION,
@@ -92,11 +94,13 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
 }
 
 int32_t hb_irbf_share(const hb_irbf* irbf, hb_irbf** shared) {
+  handlebody::changing(irbf->irbf->prepared().get());
   *shared = new hb_irbf{std::make_unique<Irbf>(irbf->irbf->prepared())};
   return HB_OK;
 }
 
 int32_t hb_irbf_set_handles(hb_irbf* irbf, const double* points, const uint32_t* kinds, uint32_t count) {
+  handlebody::changing(irbf->irbf->prepared().get());
   if (const int32_t status = check_arrays({{points, "handles", count, 3}, {kinds, "kinds", count}})) return status;
   std::vector<handlebody::HandleKind> list(count);
   std::transform(kinds, kinds + count, list.begin(),
@@ -114,6 +118,7 @@ double* hb_irbf_targets(hb_irbf* irbf) {
 }
 
 int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report) {
+  handlebody::changing(irbf->irbf->prepared().get());
   const auto solved = irbf->irbf->solve({static_cast<int>(std::min(max_iterations, 1u << 20)), tolerance, accelerate != 0});
   if (!solved) return fail(solved.error());
   report->energy = solved->energy;
@@ -125,11 +130,13 @@ int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, 
 }
 
 int32_t hb_irbf_deform(hb_irbf* irbf, float* positions, const float* rest_normals, float* normals) {
+  handlebody::changing(irbf->irbf->prepared().get());
   irbf->irbf->deform(positions, rest_normals, normals);
   return HB_OK;
 }
 
 int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, double* out) {
+  handlebody::changing(irbf->irbf->prepared().get());
   if (const int32_t status = check_arrays({{points, "points", count, 3}, {out, "results", count, 3}})) return status;
   const auto deformed = irbf->irbf->evaluate(Eigen::Map<const Points>(points, count, 3));
   if (!deformed) return fail(deformed.error());
@@ -138,6 +145,7 @@ int32_t hb_irbf_evaluate(hb_irbf* irbf, const double* points, uint32_t count, do
 }
 
 int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t count, hb_irbf_quality* out) {
+  handlebody::changing(irbf->irbf->prepared().get());
   if (const int32_t status = check_arrays({{tetrahedra, "tetrahedra", count, 4}})) return status;
   const auto quality = irbf->irbf->quality(Eigen::Map<const handlebody::Tetrahedra>(tetrahedra, count, 4));
   if (!quality) return fail(quality.error());
@@ -153,6 +161,9 @@ int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t coun
 }
 
 void hb_irbf_free(hb_irbf* irbf) {
+  // What the last one shared goes with it.
+  const void* prepared = irbf && irbf->irbf->prepared().use_count() == 1 ? irbf->irbf->prepared().get() : nullptr;
   delete irbf;
+  if (prepared) handlebody::gone(prepared);
 }
 }

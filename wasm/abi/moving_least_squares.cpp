@@ -1,6 +1,7 @@
 #include "core/interpolation/moving_least_squares.hpp"
 
 #include "abi/interpolant.hpp"
+#include "abi/memory.hpp"
 
 using namespace handlebody;
 
@@ -9,6 +10,7 @@ extern "C" {
 int32_t hb_moving_least_squares_create(const double* points, const double* values, uint32_t count, uint32_t dimension,
                                        uint32_t outputs, const hb_moving_least_squares_options* options, double* used_width,
                                        hb_interpolant** out) {
+  handlebody::making();
   const auto [power, epsilon, width, degree, weight] = *options;
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "abi/support.hpp"
 
 struct hb_pose_space {
@@ -33,6 +34,7 @@ extern "C" {
 
 int32_t hb_pose_space_create(const double* places, uint32_t count, uint32_t dimension, uint32_t method, uint32_t kernel,
                              double width, int32_t degree, hb_pose_space** space) {
+  handlebody::making();
   if (!space) return fail_null("result");
   if (count == 0)
     return fail({HB_ERROR_EXAMPLES_TOO_FEW, {"A pose space needs at least one example."}, {"Give one or more examples."}});
@@ -55,6 +57,7 @@ int32_t hb_pose_space_create(const double* places, uint32_t count, uint32_t dime
 }
 
 int32_t hb_pose_space_weights(hb_pose_space* space, const double* query, double* weights) {
+  handlebody::changing(space);
   if (!space) return fail_null("pose space");
   if (!query) return fail_null("query");
   if (!weights) return fail_null("weights");
@@ -66,5 +69,6 @@ int32_t hb_pose_space_weights(hb_pose_space* space, const double* query, double*
 
 void hb_pose_space_free(hb_pose_space* space) {
   delete space;
+  handlebody::gone(space);
 }
 }

@@ -5,6 +5,7 @@
 
 #include "abi/host_kernel.hpp"
 #include "abi/interpolant.hpp"
+#include "abi/memory.hpp"
 #include "core/interpolation/outliers.hpp"
 #include "core/interpolation/polynomial.hpp"
 
@@ -85,6 +86,7 @@ int32_t hb_rbf_check_size(uint32_t count, uint32_t dimension, uint32_t center_co
 
 int32_t hb_rbf_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
                       const hb_rbf_options* options, hb_interpolant** out) {
+  handlebody::making();
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, *options, out)) return status;
   auto read = read_options(*options, dimension);
@@ -93,6 +95,7 @@ int32_t hb_rbf_create(const double* points, const double* values, uint32_t count
 }
 
 int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* out) {
+  handlebody::changing(interpolant);
   if (!interpolant->rbf) return fail_not_rbf();
   Rbf& rbf = *interpolant->rbf;
   const RbfReport from = rbf.report();
@@ -112,6 +115,7 @@ int32_t hb_rbf_get_report(hb_interpolant* interpolant, hb_rbf_report* out) {
 }
 
 int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out) {
+  handlebody::changing(interpolant);
   if (!interpolant->rbf) return fail_not_rbf();
   const Matrix coefficients = interpolant->rbf->kernel_coefficients();
   std::copy(coefficients.data(), coefficients.data() + coefficients.size(), out);
@@ -119,6 +123,7 @@ int32_t hb_rbf_coefficients(hb_interpolant* interpolant, double* out) {
 }
 
 int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out) {
+  handlebody::changing(interpolant);
   if (!interpolant->rbf) return fail_not_rbf();
   const auto errors = interpolant->rbf->leave_one_out();
   if (!errors) return fail(errors.error());
@@ -127,6 +132,7 @@ int32_t hb_rbf_leave_one_out(hb_interpolant* interpolant, double* out) {
 }
 
 int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out) {
+  handlebody::changing(interpolant);
   if (!interpolant->rbf) return fail_not_rbf();
   const Vector weights = interpolant->rbf->row_weights();
   std::copy(weights.data(), weights.data() + weights.size(), out);
@@ -135,6 +141,7 @@ int32_t hb_rbf_row_weights(hb_interpolant* interpolant, double* out) {
 
 int32_t hb_find_outliers(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
                          const hb_rbf_options* options, hb_outlier_search* search) {
+  handlebody::making();
   const GivenData data{points, values, count, dimension, outputs};
   hb_interpolant* none = nullptr;
   if (const int32_t status = check_given(data, *options, &none)) return status;

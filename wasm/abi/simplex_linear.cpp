@@ -1,6 +1,7 @@
 #include "core/interpolation/simplex_linear.hpp"
 
 #include "abi/interpolant.hpp"
+#include "abi/memory.hpp"
 
 using namespace handlebody;
 
@@ -8,6 +9,7 @@ extern "C" {
 
 int32_t hb_simplex_linear_create(const double* points, const double* values, uint32_t count, uint32_t dimension, uint32_t outputs,
                                  uint32_t outside, hb_interpolant** out) {
+  handlebody::making();
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;
   if (outside > 1)

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "core/mesh/sound_mesh.hpp"
 
 using namespace handlebody;
@@ -46,6 +47,7 @@ HeldVertices read_held(const hb_held_vertices& held) {
 extern "C" {
 
 int32_t hb_sound_mesh_create(const hb_simplex_mesh* mesh, uint32_t weld, uint32_t strict, hb_sound_mesh** sound) {
+  handlebody::making();
   if (!mesh || !sound)
     return fail({HB_ERROR_INVALID_SHAPE, {"A pointer to the mesh or the result is NULL."}, {"Pass valid pointers."}});
   if (const int32_t status = check_mesh(*mesh)) return status;
@@ -84,5 +86,6 @@ void hb_sound_mesh_get(hb_sound_mesh* sound, hb_sound_mesh_view* view) {
 
 void hb_sound_mesh_free(hb_sound_mesh* sound) {
   delete sound;
+  handlebody::gone(sound);
 }
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "abi/simplex_mesh.hpp"
 #include "core/skinning/as_rigid_as_possible.hpp"
 #include "core/skinning/dual_quaternion.hpp"
@@ -39,6 +40,7 @@ extern "C" {
 
 int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                uint32_t handle_count, uint32_t compiled, hb_skin** skin) {
+  handlebody::making();
   if (const int32_t status = check_shape(positions, weights, count, dimension, handle_count)) return status;
   const auto form = compiled == 0 ? LinearBlendForm::direct : LinearBlendForm::compiled;
   return deliver(linear_blend(shape(positions, weights, count, dimension, handle_count), form), skin);
@@ -46,6 +48,7 @@ int32_t hb_linear_blend_create(const double* positions, uint32_t count, uint32_t
 
 int32_t hb_dual_quaternion_create(const double* positions, uint32_t count, uint32_t dimension, const double* weights,
                                   uint32_t handle_count, hb_skin** skin) {
+  handlebody::making();
   if (const int32_t status = check_shape(positions, weights, count, dimension, handle_count)) return status;
   return deliver(dual_quaternion_blend(shape(positions, weights, count, dimension, handle_count)), skin);
 }
@@ -55,11 +58,13 @@ double* hb_skin_transforms(hb_skin* skin) {
 }
 
 int32_t hb_skin_deform(hb_skin* skin, float* positions) {
+  handlebody::changing(skin);
   const auto done = skin->method->deform(positions);
   return done ? HB_OK : fail(done.error());
 }
 
 int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, uint32_t energy, hb_skin** skin) {
+  handlebody::making();
   if (energy > 3) return fail({HB_ERROR_INVALID_OPTION, {"There is no energy ", energy, "."}, {"Use 0 to 3."}, HB_CULPRIT_OPTION});
   if (mesh->dimension != 2)
     return fail({HB_ERROR_INVALID_SHAPE,
@@ -78,6 +83,7 @@ int32_t hb_minimizer_create(const hb_simplex_mesh* mesh, const hb_held_vertices*
 }
 
 int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions, hb_minimizer_report* report) {
+  handlebody::changing(skin);
   HeldDeformation* const minimizer = skin->minimizer;
   if (!minimizer) return fail({HB_ERROR_INVALID_OPTION, {"This skin minimizes no energy."}, {"Deform it by hb_skin_deform()."}});
   minimizer->set_iterations(iterations);
@@ -89,5 +95,6 @@ int32_t hb_minimizer_deform(hb_skin* skin, uint32_t iterations, float* positions
 
 void hb_skin_free(hb_skin* skin) {
   delete skin;
+  handlebody::gone(skin);
 }
 }

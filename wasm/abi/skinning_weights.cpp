@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "abi/memory.hpp"
 #include "abi/simplex_mesh.hpp"
 #include "core/skinning/bounded_weights.hpp"
 #include "core/skinning/measure_weights.hpp"
@@ -22,6 +23,7 @@ static_assert(sizeof(Island) == sizeof(hb_island));
 extern "C" {
 
 int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, uint32_t mass, hb_skinning_weights** out) {
+  handlebody::making();
   if (order < 1 || order > 3 || mass >= mass_count) {
     return fail({HB_ERROR_INVALID_OPTION,
                  {"The order ", order, " or the mass ", mass, " is unknown."},
@@ -38,6 +40,7 @@ int32_t hb_skinning_weights_create(const hb_simplex_mesh* mesh, uint32_t order, 
 }
 
 int32_t hb_skinning_weights_set_handles(hb_skinning_weights* weights, const hb_held_vertices* handles) {
+  handlebody::changing(weights);
   if (const int32_t status = check_held(*handles)) return status;
   const auto done = weights->weights->set_handles(read_held(*handles));
   if (!done) return fail(done.error());
@@ -71,6 +74,7 @@ uint32_t hb_skinning_weights_energy(hb_skinning_weights* weights, hb_sparse_matr
 }
 
 int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tolerance) {
+  handlebody::changing(weights);
   if (!(tolerance > 0 && tolerance < 1))
     return fail({HB_ERROR_INVALID_OPTION,
                  {"The tolerance ", tolerance, " is not between 0 and 1."},
@@ -88,6 +92,7 @@ int32_t hb_skinning_weights_bound_begin(hb_skinning_weights* weights, double tol
 }
 
 int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* progress, hb_bounded_report* report) {
+  handlebody::changing(weights);
   if (!weights->bounding) {
     *progress = 1;
     return HB_OK;
@@ -103,10 +108,12 @@ int32_t hb_skinning_weights_bound_step(hb_skinning_weights* weights, double* pro
 
 void hb_skinning_weights_free(hb_skinning_weights* weights) {
   delete weights;
+  handlebody::gone(weights);
 }
 
 int32_t hb_measure_weights(const hb_simplex_mesh* mesh, const hb_held_vertices* handles, const double* weights, double* support,
                            hb_weight_measures* measures) {
+  handlebody::making();
   if (const int32_t status = check_mesh(*mesh)) return status;
   if (const int32_t status = check_held(*handles)) return status;
   if (const int32_t status = check_arrays({{weights, "weights", mesh->vertex_count, handles->handle_count}})) return status;

@@ -1,7 +1,6 @@
 #include "abi/support.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 namespace {
@@ -47,14 +46,5 @@ uint32_t hb_abi_version(void) {
 
 const hb_error* hb_last_error(void) {
   return &last_error;
-}
-
-void* hb_alloc(uint32_t bytes) {
-  // Not malloc(), which aligns to 8 bytes in wasm32. A size that cannot be rounded up is none that there is memory for.
-  return bytes < 0xffffff00 ? std::aligned_alloc(16, (std::size_t{bytes} / 16 + 1) * 16) : nullptr;
-}
-
-void hb_release(void* memory) {
-  std::free(memory);
 }
 }

@@ -1,12 +1,14 @@
 #include "core/interpolation/tension_spline.hpp"
 
 #include "abi/interpolant.hpp"
+#include "abi/memory.hpp"
 #include "core/interpolation/tension_spline_1d.hpp"
 
 using namespace handlebody;
 
 extern "C" int32_t hb_tension_spline_create(const double* points, const double* values, uint32_t count, uint32_t dimension,
                                             uint32_t outputs, const hb_tension_spline_options* options, hb_interpolant** out) {
+  making();
   const auto [alpha, beta, gamma, smoothing, ends] = *options;
   const GivenData data{points, values, count, dimension, outputs};
   if (const int32_t status = check_given(data, out)) return status;

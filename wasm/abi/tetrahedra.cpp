@@ -1,6 +1,7 @@
 // The tetrahedra section of handlebody.h.
 #include <utility>
 
+#include "abi/memory.hpp"
 #include "abi/support.hpp"
 #include "core/distance/voxel_tetrahedra.hpp"
 
@@ -14,6 +15,7 @@ extern "C" {
 
 int32_t hb_tetrahedra_create(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
                              uint32_t resolution, hb_tetrahedra** out) {
+  handlebody::making();
   if (const int32_t status = check_arrays({{positions, "positions", vertex_count, 3}, {triangles, "triangles", triangle_count, 3}}))
     return status;
   SimplexMesh surface;
@@ -37,5 +39,6 @@ void hb_tetrahedra_arrays(hb_tetrahedra* tetrahedra, hb_tetrahedra_view* out) {
 
 void hb_tetrahedra_free(hb_tetrahedra* tetrahedra) {
   delete tetrahedra;
+  handlebody::gone(tetrahedra);
 }
 }

@@ -17,6 +17,7 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
   #exports: E | undefined;
   #trapped: unknown;
   #running = false;
+  readonly #stack: number | undefined;
   /** Gives back what forgotten objects held; where there is none such, only `dispose()` does. */
   readonly #registry =
     typeof FinalizationRegistry === 'function' ? new FinalizationRegistry<Owned>((owned) => this.#forget(owned)) : undefined;
@@ -26,6 +27,7 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
   constructor(exports: E, kernels = new HostKernels()) {
     this.#exports = exports;
     this.kernels = kernels;
+    this.#stack = (exports as Stack).stackSave?.();
   }
 
   /** The instance's memory in bytes, now. */
@@ -69,10 +71,7 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
   alloc(bytes: number): number {
     const pointer = bytes <= 0xffff_ffff ? this.call((e) => e.hb_alloc(Math.max(bytes, 16))) >>> 0 : 0;
     if (pointer === 0) {
-      throw new HandlebodyError('out-of-memory', {
-        message: `The solver could not reserve ${(bytes / 2 ** 20).toFixed(1)} MiB of memory.`,
-        remedy: 'Use a smaller model, fewer centers or a coarser resolution, or dispose of objects that are no longer used.',
-      });
+      throw outOfMemory(bytes);
     }
     new Uint8Array(this.#alive().memory.buffer, pointer, bytes).fill(0);
     return pointer;
@@ -98,7 +97,10 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     if (this.usable) this.call(run);
   }
 
-  /** Calls into the module. A trap (a defect, or memory that ran out half-way) poisons the instance: its state is unknown. */
+  /**
+   * Calls into the module. Where memory runs out on the way, what the call took is given back and 'out-of-memory' is thrown. Any other trap
+   * is a defect, and poisons the instance: its state is unknown.
+   */
   call<T>(run: (exports: E) => T): T {
     const exports = this.expectUsable();
     if (this.#running) {
@@ -109,14 +111,29 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
     }
     this.#running = true;
     try {
+      exports.hb_begin_call?.();
       return run(exports);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
+      const wanted = this.#undo(exports);
+      if (wanted > 0) throw outOfMemory(wanted);
       this.#trapped = error;
       throw this.#poisoned();
     } finally {
       this.#running = false;
       if (this.#forgotten.length > 0) for (const owned of this.#forgotten.splice(0)) this.#forget(owned);
+    }
+  }
+
+  /** The bytes for want of which the call trapped; 0 where it trapped for something else. */
+  #undo(exports: E): number {
+    try {
+      const wanted = (exports.hb_undo_call?.() ?? 0) >>> 0;
+      // What a trap leaves on the stack nobody takes off.
+      if (wanted > 0) (exports as Stack).stackRestore?.(this.#stack ?? 0);
+      return wanted;
+    } catch {
+      return 0;
     }
   }
 
@@ -186,6 +203,19 @@ export class Heap<E extends RuntimeExports = RuntimeExports> {
       culprit,
     });
   }
+}
+
+/** What Emscripten exports besides. */
+interface Stack {
+  stackSave?(): number;
+  stackRestore?(to: number): void;
+}
+
+function outOfMemory(bytes: number): HandlebodyError {
+  return new HandlebodyError('out-of-memory', {
+    message: `The solver could not reserve ${(bytes / 2 ** 20).toFixed(1)} MiB of memory.`,
+    remedy: 'Use a smaller model, fewer centers or a coarser resolution, or dispose of objects that are no longer used.',
+  });
 }
 
 interface Owning {

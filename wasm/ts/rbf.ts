@@ -44,7 +44,12 @@ export class Rbf extends Interpolant {
     this.#degree = resolved.degree;
     this.owned.kernel = resolved.hostKernel;
     this.#options = read;
-    for (const warning of this.report().warnings) (read.onWarning ?? printWarning)(warning);
+    try {
+      for (const warning of this.report().warnings) (read.onWarning ?? printWarning)(warning);
+    } catch (error) {
+      this.dispose();
+      throw error;
+    }
   }
 
   /** How good the fit is, and its warnings. */

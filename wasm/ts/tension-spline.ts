@@ -78,7 +78,12 @@ export class TensionSpline extends Interpolant {
     this.#options = read;
     this.#degree = degree;
     this.#ends = ends;
-    for (const warning of this.report()?.warnings ?? []) onWarning(warning);
+    try {
+      for (const warning of this.report()?.warnings ?? []) onWarning(warning);
+    } catch (error) {
+      this.dispose();
+      throw error;
+    }
   }
 
   /** How good the fit is, and its warnings; `undefined` for zero-slope ends, whose equations are always well behaved. */

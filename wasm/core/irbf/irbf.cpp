@@ -57,19 +57,31 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
     if (!made) return made.error();
     system = std::move(*made);
   }
-  handle_kernel_ = make_handle_kernel(system);
-  handle_frame_ = handle_kernel_ ? handle_kernel_->scratch() : FrameKernel::Scratch();
+  // All that takes memory comes before anything changes: where that runs out on the way, the former handles are whole.
+  auto kernel = make_handle_kernel(system);
+  auto frame = kernel ? kernel->scratch() : FrameKernel::Scratch();
+  Matrix right_hand_side(system.inverse.cols(), 3);
+  auto targets = constraints->rest(handles);
+  Workspace work;
+  work.targets = work.displacements = constraints->points();
+  work.solution.resize(system.inverse.rows(), 3);
+  work.missed.resize(constraints->rows().rows(), 3);
+  work.warm = work_.warm;
+  work.solved_targets.reserve(targets.size());
+  LocalGlobal local_global(prepared_->edges, prepared_->edge_scale);
+  local_global.rotations() = local_global_.rotations();
+  if (!kinds.empty()) local_global.set_system(system.hat);
+
+  handle_kernel_ = std::move(kernel);
+  handle_frame_ = std::move(frame);
   by_handles_ = false;
-  right_hand_side_.resize(system.inverse.cols(), 3);
+  right_hand_side_ = std::move(right_hand_side);
   constraints_ = std::move(*constraints);
   system_ = std::move(system);
-  targets_ = constraints_.rest(handles);
-  work_.targets = work_.displacements = constraints_.points();
-  work_.solution.resize(system_.inverse.rows(), 3);
-  work_.missed.resize(constraints_.rows().rows(), 3);
-  work_.solved_targets.clear();
-  work_.solved_targets.reserve(targets_.size());
-  if (!kinds.empty()) local_global_.set_system(system_.hat);
+  targets_ = std::move(targets);
+  work_ = std::move(work);
+  local_global_ = std::move(local_global);
+  local_global_.follow(system_.hat);
   return Done{};
 }
 

@@ -35,6 +35,9 @@ class LocalGlobal {
   /** The matrix of ReducedSystem; must outlive the iterations. Rotations stay. */
   void set_system(const MatrixXd& hat);
 
+  /** The same matrix has another place. */
+  void follow(const MatrixXd& hat) { hat_ = &hat; }
+
   /** Constraint rows of the right-hand side, to be written before start(): displacements, weighted. */
   auto constraints() { return right_hand_side_.bottomRows(right_hand_side_.rows() - edges_.rows()); }
 

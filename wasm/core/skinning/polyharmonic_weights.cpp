@@ -79,6 +79,7 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
   if (!best) return best.error();
   if (best->error > most_error[order_ - 1]) {
     const double of_mesh = thinnest_simplex(mesh_);
+    solver_.reset();  // of another energy from here on
     double thinnest_of_best = thinnest_;
     for (double next = thicker(thinnest_, order_, of_mesh); next > 0 && best->error > most_error[order_ - 1];
          next = thicker(next, order_, of_mesh)) {
@@ -98,11 +99,14 @@ Result<Done> PolyharmonicWeights::factor(const HeldVertices& held) {
                   "for the order."},
                  {"Improve the mesh, or lower the order."});
   }
+  // What takes memory comes first: where that runs out, the former factor and what it is of stay together.
+  HeldVertices kept = held;
+  auto weights = best->weights;
   solver_ = std::move(best->solver);
-  factored_held_ = held;
+  factored_held_ = std::move(kept);
   factored_owner_of_ = std::move(owner_of);
   factored_weights_ = std::move(best->weights);
-  weights_ = factored_weights_;
+  weights_ = std::move(weights);
   return Done{};
 }
 
