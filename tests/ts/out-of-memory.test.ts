@@ -189,6 +189,16 @@ describe('memory that runs out', () => {
     expect(met.at(-1)).toBe(true);
   });
 
+  it('may run out again and again: nothing stays on the stack', async () => {
+    const { hb, leave } = await littleMemory(MEGABYTES(24));
+    const { ask } = witnesses(hb);
+    const before = ask();
+    const refill = leave(60_000);
+    for (let i = 0; i < 4000; i++) expect(() => hb.rbf({ ...data, kernel: 'gaussian', width: 'leave-one-out' })).toThrow(told);
+    refill();
+    expect(ask()).toEqual(before);
+  });
+
   it.each(['other handles of an irbf', 'an irbf that is measured', 'other handles of weights'] as const)(
     'leaves the object as it was: %s',
     async (name) => {
