@@ -1,9 +1,10 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, elements, figures, hostile, irbf, readers, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, checks, elements, figures, hostile, irbf, readers, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
 const PARTS = {
   bake: async () => (await import('./bake/main.mjs')).benchBake(),
+  checks: async () => (await import('./checks/main.mjs')).benchChecks(),
   elements: async () => (await import('./elements/main.mjs')).benchElements(),
   figures: async () => (await import('./figures/main.mjs')).benchFigures(),
   hostile: async () => (await import('./hostile/main.mjs')).benchHostile(),

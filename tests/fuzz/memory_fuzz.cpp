@@ -1,6 +1,6 @@
 // Memory by the byte, and the last error.
 //
-// behind: abi/support.cpp
+// behind: abi/memory.cpp abi/support.cpp
 #include "target.hpp"
 
 using namespace handlebody::fuzz;
@@ -10,6 +10,8 @@ FUZZ(bytes) {
   require(hb_last_error() == hb_last_error(), "there is one last error");
   void* blocks[8]{};
   for (unsigned times = bytes.from_to(1, 32); times > 0; --times) {
+    if (bytes.one_of({false, true})) hb_begin_call();
+    require(hb_undo_call() == 0, "nothing is undone where memory did not run out");
     void*& block = blocks[bytes.below(8)];
     hb_release(block);
     const std::uint32_t size = bytes.wildly() ? bytes.one_of({0u, 0xffffffffu, 0xfffffff0u}) : bytes.below(0x10000);

@@ -49,11 +49,15 @@ class Owned {
  public:
   Owned() = default;
   Owned(const Owned&) = delete;
-  ~Owned() { release(object_); }
+  ~Owned() {
+    hb_begin_call();
+    release(object_);
+  }
 
   /** Whether `create`, which is given the place for the object, worked. Where not, the place has to be as it was. */
   template <typename Create>
   bool make(const Create& create) {
+    hb_begin_call();
     if (worked(create(&object_))) return require(object_ != nullptr, "a call that succeeds makes the object"), true;
     return require(object_ == nullptr, "a call that fails leaves the result as it was"), false;
   }

@@ -125,10 +125,10 @@ export function options<R extends Readonly<Record<string, Reader<unknown>>>>(
   const all = object(given, argument, 'Give an object of options.');
   checkNames(all, readers, argument);
   const read: Record<string, unknown> = {};
-  for (const [key, reader] of Object.entries(readers)) {
+  for (const key in readers) {
     const value = all[key];
-    const inPlace = value === undefined ? defaults[key as keyof R] : undefined;
-    read[key] = inPlace ?? reader(value, key, read);
+    const inPlace = value === undefined ? defaults[key] : undefined;
+    read[key] = inPlace ?? (readers[key] as Reader<unknown>)(value, key, read);
   }
   return read as Read<R>;
 }

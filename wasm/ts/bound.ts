@@ -1,28 +1,44 @@
-/**
- * Ties an object's methods and accessors to it, so that they find their private fields also where a framework's proxy stands for the object
- * (Vue's ref, Valtio, `new Proxy(hb, {})`): private fields cannot be reached through a proxy. They stay out of sight, as those of the class are.
- */
-export function bound<T extends object>(object: T): T {
-  for (const [key, { get, value }] of members(Object.getPrototypeOf(object)))
-    Object.defineProperty(
-      object,
-      key,
-      get ? { get: get.bind(object), configurable: true } : { value: value.bind(object), configurable: true },
-    );
-  return object;
+import { HandlebodyError } from './errors.ts';
+
+/** Leads to the object itself. A function, since frameworks hand out objects behind further proxies, but not functions. */
+const RAW = Symbol('the object itself');
+
+interface Tied {
+  readonly [RAW]?: () => object;
 }
 
-const known = new WeakMap<object, (readonly [PropertyKey, PropertyDescriptor])[]>();
+/**
+ * Makes an object's methods and accessors find their private fields also where a framework's proxy stands for the object (Vue's ref, Valtio,
+ * `new Proxy(hb, {})`): private fields cannot be reached through a proxy. A class is prepared once, an object gets one property.
+ */
+export function bound<T extends object>(object: T): T {
+  for (let at = Object.getPrototypeOf(object); at !== Object.prototype && !prepared.has(at); at = Object.getPrototypeOf(at))
+    prepare(at);
+  return Object.defineProperty(object, RAW, { value: () => object, configurable: true });
+}
 
-/** Methods and accessors of a class and of those that it extends. */
-function members(prototype: object): readonly (readonly [PropertyKey, PropertyDescriptor])[] {
-  const found = known.get(prototype);
-  if (found) return found;
-  const all = new Map<PropertyKey, PropertyDescriptor>();
-  for (let at = prototype; at !== Object.prototype; at = Object.getPrototypeOf(at))
-    for (const key of Reflect.ownKeys(at))
-      if (key !== 'constructor' && !all.has(key)) all.set(key, Object.getOwnPropertyDescriptor(at, key) as PropertyDescriptor);
-  const list = [...all];
-  known.set(prototype, list);
-  return list;
+const prepared = new WeakSet<object>();
+
+/** Methods and accessors of a class are called on the object itself from now on. */
+function prepare(prototype: object): void {
+  prepared.add(prototype);
+  for (const key of Reflect.ownKeys(prototype)) {
+    if (key === 'constructor') continue;
+    const { get, value, ...rest } = Object.getOwnPropertyDescriptor(prototype, key) as PropertyDescriptor;
+    const name = String(key);
+    if (get) Object.defineProperty(prototype, key, { ...rest, get: onRaw(get, name) });
+    else if (typeof value === 'function') Object.defineProperty(prototype, key, { ...rest, value: onRaw(value, name) });
+  }
+}
+
+function onRaw<A extends unknown[], R>(method: (...given: A) => R, name: string): (this: Tied, ...given: A) => R {
+  const wrapped = function (this: Tied | undefined, ...given: A): R {
+    if (this === undefined)
+      throw new HandlebodyError('invalid-option', {
+        message: `"${name}" was called without its object.`,
+        remedy: `Call it as object.${name}(…), or hand on () => object.${name}(…).`,
+      });
+    return method.apply(this[RAW]?.() ?? this, given);
+  };
+  return Object.defineProperties(wrapped, { name: { value: name }, length: { value: method.length } });
 }

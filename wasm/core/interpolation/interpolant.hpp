@@ -10,6 +10,8 @@ namespace handlebody {
 
 class Interpolant {
  public:
+  Interpolant(Interpolant&&) noexcept = default;
+  Interpolant& operator=(Interpolant&&) noexcept = default;
   virtual ~Interpolant() = default;
 
   Index size() const { return data_.given; }  // points as given, those that were merged included

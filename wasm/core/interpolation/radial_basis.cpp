@@ -72,6 +72,11 @@ Result<MatrixXd> metric_root(const MatrixXd& metric, Index dimension) {
                       {"Give the inverse of a covariance matrix, or leave out metric for Euclidean distances."});
 }
 
+RadialBasis::RadialBasis(const RadialBasis&) = default;
+RadialBasis::RadialBasis(RadialBasis&&) noexcept = default;
+RadialBasis& RadialBasis::operator=(RadialBasis&&) noexcept = default;
+RadialBasis::~RadialBasis() = default;
+
 Result<RadialBasis> RadialBasis::create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options) {
   const Index dimension = points.cols(), k = centers.rows();
   if (auto valid = check_options(options, dimension, k); !valid) return valid.error();

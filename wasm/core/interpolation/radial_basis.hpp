@@ -39,6 +39,12 @@ Result<MatrixXd> metric_root(const MatrixXd& metric, Index dimension);
 
 class RadialBasis {
  public:
+  // Compiled once, because many places move one.
+  RadialBasis(const RadialBasis&);
+  RadialBasis(RadialBasis&&) noexcept;
+  RadialBasis& operator=(RadialBasis&&) noexcept;
+  ~RadialBasis();
+
   /** `points` (n×d) decide scale, origin and which polynomials there are (polynomial_space.hpp); `centers` k×d. Fails with
    * INVALID_OPTION. */
   static Result<RadialBasis> create(const Matrix& points, const Matrix& centers, const RadialBasisOptions& options);

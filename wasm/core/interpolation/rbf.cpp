@@ -101,6 +101,10 @@ Result<Done> check_size(double points, double centers, double polynomials) {
                {"Give fewer centers than points, use a part of the points, or a method without a matrix, such as shepard()."});
 }
 
+Rbf::Rbf(Rbf&&) noexcept = default;
+Rbf& Rbf::operator=(Rbf&&) noexcept = default;
+Rbf::~Rbf() = default;
+
 Result<Rbf> Rbf::create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values, const RbfOptions& given) {
   const auto count = static_cast<double>(points.rows());
   const auto center_count = static_cast<double>(given.centers.rows());

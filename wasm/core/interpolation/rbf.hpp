@@ -50,6 +50,11 @@ constexpr double comfortable_condition = 1e8;
 
 class Rbf final : public Interpolant {
  public:
+  // Compiled once, because many places move one.
+  Rbf(Rbf&&) noexcept;
+  Rbf& operator=(Rbf&&) noexcept;
+  ~Rbf();
+
   /** Fails with the codes of check_data() and RadialBasis::create(), OUT_OF_MEMORY (a matrix of more than largest_matrix_bytes,
    * refused before it is allocated), KERNEL_FAILED, SYSTEM_SINGULAR, or INVALID_OPTION. */
   static Result<Rbf> create(const Eigen::Ref<const Matrix>& points, const Eigen::Ref<const Matrix>& values,

@@ -54,6 +54,12 @@ Vector half_extents(const Eigen::Ref<const Matrix>& points) {
 
 }  // namespace
 
+ScatteredData::ScatteredData() = default;
+ScatteredData::ScatteredData(const ScatteredData&) = default;
+ScatteredData::ScatteredData(ScatteredData&&) noexcept = default;
+ScatteredData& ScatteredData::operator=(ScatteredData&&) noexcept = default;
+ScatteredData::~ScatteredData() = default;
+
 Vector place_tolerances(const Eigen::Ref<const Matrix>& points) {
   return 2 * coincidence * std::sqrt(static_cast<double>(points.cols())) * half_extents(points);
 }

@@ -10,6 +10,13 @@
 namespace handlebody {
 
 struct ScatteredData {
+  // Compiled once, because many places move one.
+  ScatteredData();
+  ScatteredData(const ScatteredData&);
+  ScatteredData(ScatteredData&&) noexcept;
+  ScatteredData& operator=(ScatteredData&&) noexcept;
+  ~ScatteredData();
+
   Matrix points;                       // n×d, those that were kept
   Matrix values;                       // n×m
   std::vector<std::uint32_t> kept;     // n: the number of each in the data as given, ascending

@@ -28,6 +28,11 @@ bool is_near(const Body& body, std::unique_ptr<TriangleTree>& surface, const Vec
 
 }  // namespace
 
+HandleConstraints::HandleConstraints() = default;
+HandleConstraints::HandleConstraints(HandleConstraints&&) noexcept = default;
+HandleConstraints& HandleConstraints::operator=(HandleConstraints&&) noexcept = default;
+HandleConstraints::~HandleConstraints() = default;
+
 Result<HandleConstraints> HandleConstraints::create(const Body& body, const Basis& basis, std::unique_ptr<TriangleTree>& surface,
                                                     const ConstPoints& places, const std::vector<HandleKind>& kinds,
                                                     double radius) {

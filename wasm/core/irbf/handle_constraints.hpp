@@ -25,7 +25,11 @@ class HandleConstraints {
  public:
   static constexpr Index target_size = 10;  // position xyz, quaternion xyzw, scale xyz
 
-  HandleConstraints() = default;
+  // Compiled once, because many places move one.
+  HandleConstraints();
+  HandleConstraints(HandleConstraints&&) noexcept;
+  HandleConstraints& operator=(HandleConstraints&&) noexcept;
+  ~HandleConstraints();
 
   /** Handles at `places` (k×3, model units); rotation handles grip a structure of `radius` (solver space). `surface` is the body's,
    * made when it is first needed. Fails with HANDLE_NOT_FINITE, HANDLE_OUTSIDE, INVALID_OPTION (too many), or as the basis does. */

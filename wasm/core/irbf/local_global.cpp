@@ -27,6 +27,10 @@ LocalGlobal::LocalGlobal(Points edges, Vector edge_scale)
       rotations_(edges_.rows() / 3, Matrix3::Identity()),
       trial_(rotations_) {}
 
+LocalGlobal::LocalGlobal(LocalGlobal&&) noexcept = default;
+LocalGlobal& LocalGlobal::operator=(LocalGlobal&&) noexcept = default;
+LocalGlobal::~LocalGlobal() = default;
+
 void LocalGlobal::set_system(const MatrixXd& hat) {
   hat_ = &hat;
   hessian_ = RotationHessian(edges_, hat);

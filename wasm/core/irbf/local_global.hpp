@@ -31,6 +31,10 @@ class LocalGlobal {
  public:
   /** `edges`: three per sphere, weighted by √w (3B × 3); `edge_scale` 1/√w. */
   LocalGlobal(Points edges, Vector edge_scale);
+  // Compiled once, because many places move one.
+  LocalGlobal(LocalGlobal&&) noexcept;
+  LocalGlobal& operator=(LocalGlobal&&) noexcept;
+  ~LocalGlobal();
 
   /** The matrix of ReducedSystem; must outlive the iterations. Rotations stay. */
   void set_system(const MatrixXd& hat);

@@ -18,6 +18,11 @@ Error singular(const char* message) {
 
 }  // namespace
 
+ReducedSystem::ReducedSystem() = default;
+ReducedSystem::ReducedSystem(ReducedSystem&&) noexcept = default;
+ReducedSystem& ReducedSystem::operator=(ReducedSystem&&) noexcept = default;
+ReducedSystem::~ReducedSystem() = default;
+
 Result<ReducedSystem> make_reduced_system(const MatrixXd& edge_rows, const MatrixXd& gram, const MatrixXd& rows, double mu,
                                           ConstraintKind kind) {
   const Index edges = edge_rows.rows(), constraints = rows.rows(), unknowns = gram.rows();

@@ -12,6 +12,12 @@ enum class ConstraintKind : unsigned { soft = 0, hard = 1 };
 /** minimize ‖Z₁Π − Γ₁‖² + λ‖a‖² with SΠ = T weighted by μ² (soft) or exactly (hard); Π stacks Aᵀ, t and the coefficients a. The
  *  right-hand side stacks Γ₁ and `weight`·T. */
 struct ReducedSystem {
+  // Compiled once, because many places move one.
+  ReducedSystem();
+  ReducedSystem(ReducedSystem&&) noexcept;
+  ReducedSystem& operator=(ReducedSystem&&) noexcept;
+  ~ReducedSystem();
+
   MatrixXd inverse;      // Π = inverse · right-hand side: (4 + C) × (3B + K)
   MatrixXd hat;          // (3B + K) × (3B + K): its first 3B rows give Z₁Π; the least energy is rhsᵀ(I − hat) rhs
   double weight = 1;     // of the constraints in the right-hand side: μ, or 1 where they are hard
