@@ -1,4 +1,4 @@
-import type { AnyFigure } from './kit/figure.ts';
+import { type AnyFigure, checkFigure } from './kit/figure.ts';
 
 const own = new Map<string, AnyFigure>();
 
@@ -29,6 +29,7 @@ const own = new Map<string, AnyFigure>();
  * ```
  */
 export function registerFigure(figure: AnyFigure): void {
+  checkFigure(figure);
   own.set(figure.id, figure);
 }
 

@@ -23,7 +23,7 @@ export const container = is('append', 'Give an element of the page.');
 /** The number of one of `count` things. Allocates nothing. */
 export function numberOf(value: unknown, name: string, count: number): number {
   if (Number.isInteger(value) && (value as number) >= 0 && (value as number) < count) return value as number;
-  throw refused(name, value, `Give a whole number from 0 to ${count - 1}.`);
+  throw refused(name, value, count > 0 ? `Give a whole number from 0 to ${count - 1}.` : 'There are none yet.');
 }
 
 /** What to pick by: a Raycaster, a hit of one, or where a pointer is. */

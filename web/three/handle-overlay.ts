@@ -1,10 +1,13 @@
+import { flag, optional, type Readers, options as readOptions } from '../../wasm/ts/arguments.ts';
 import { adoptHandleStyle } from './handle-style.ts';
-import { BareHandles, type BareHandlesOptions } from './handles.ts';
+import { BareHandles, type BareHandlesOptions, HANDLES_READERS } from './handles.ts';
 
 export interface HandleOverlayOptions extends BareHandlesOptions {
   /** The page styles the handles by itself, from nothing. */
   readonly unstyled?: boolean;
 }
+
+const READERS = { ...HANDLES_READERS, unstyled: optional(flag) } satisfies Readers<HandleOverlayOptions>;
 
 /**
  * Handles over a three.js canvas, as `BareHandles` has them, with a style that any rule of the page's overrides: see `HANDLE_STYLE`.
@@ -26,8 +29,9 @@ export class HandleOverlay extends BareHandles {
   #styled: boolean;
 
   constructor(options: HandleOverlayOptions) {
-    super(options);
-    [this.#container, this.#styled] = [options.container, options.unstyled ?? false];
+    const read = readOptions(options, READERS) as HandleOverlayOptions;
+    super(read);
+    [this.#container, this.#styled] = [read.container, read.unstyled ?? false];
   }
 
   override update(): void {

@@ -1,6 +1,19 @@
 import { type OrthographicCamera, type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
+import {
+  callback,
+  finite,
+  flag,
+  list,
+  optional,
+  positive,
+  type Readers,
+  options as readOptions,
+  row,
+  text as words,
+} from '../../wasm/ts/arguments.ts';
 import { draggable, type Grip, letGo } from '../ui/drag.ts';
 import { putHandle } from '../ui/put-handle.ts';
+import { camera, container, numberOf } from './given.ts';
 
 /** One point that can be dragged. */
 export interface HandlePoint {
@@ -27,6 +40,24 @@ export interface BareHandlesOptions {
   readonly onDrag?: (index: number, dragging: boolean) => void;
 }
 
+/** @internal Readers of what the options are. */
+export const HANDLES_READERS = {
+  camera,
+  container,
+  step: optional(positive),
+  onMove: optional(callback),
+  onSelect: optional(callback),
+  onReset: optional(callback),
+  onRemove: optional(callback),
+  onDrag: optional(callback),
+} satisfies Readers<BareHandlesOptions>;
+
+const POINT_READERS = {
+  name: words,
+  position: (value, name) => row(value, name, 3),
+  removable: optional(flag),
+} satisfies Readers<HandlePoint>;
+
 interface Item {
   readonly button: HTMLButtonElement;
   readonly description: HTMLElement;
@@ -51,7 +82,6 @@ interface Item {
  * ```
  */
 export class BareHandles {
-  step: number;
   readonly #options: BareHandlesOptions;
   readonly #items: Item[] = [];
   readonly #ray = new Raycaster();
@@ -62,10 +92,21 @@ export class BareHandles {
   #dragged = -1;
   #selected = -1;
   #enabled = true;
+  #step: number;
 
   constructor(options: BareHandlesOptions) {
-    this.#options = options;
-    this.step = options.step ?? 0.02;
+    const read = readOptions(options, HANDLES_READERS);
+    this.#options = read as BareHandlesOptions;
+    this.#step = read.step ?? 0.02;
+  }
+
+  /** World units that an arrow key moves a handle by. */
+  get step(): number {
+    return this.#step;
+  }
+
+  set step(value: number) {
+    this.#step = positive(value, 'step');
   }
 
   get count(): number {
@@ -85,7 +126,7 @@ export class BareHandles {
   }
 
   set enabled(value: boolean) {
-    this.#enabled = value;
+    this.#enabled = flag(value, 'enabled');
     for (const { button } of this.#items) {
       if (!value) letGo(button);
       button.disabled = !value;
@@ -94,49 +135,52 @@ export class BareHandles {
 
   /** Replaces all handles. A handle keeps its button, and so the focus, when its number stays; where it goes, its neighbor has the focus. */
   set(points: readonly HandlePoint[]): void {
+    const read = list(points, 'points', '{ name, position }', (each, name) => readOptions(each, POINT_READERS, {}, name));
     for (const { button } of this.#items) letGo(button);
     let focusGoes = false;
-    for (const { button, description } of this.#items.splice(points.length)) {
+    for (const { button, description } of this.#items.splice(read.length)) {
       focusGoes ||= button.matches(':focus');
       button.remove();
       description.remove();
     }
-    points.forEach((point, i) => {
+    read.forEach((point, i) => {
       const parts = this.#items[i] ?? this.#make(i);
       this.#items[i] = { ...parts, removable: point.removable ?? false };
       parts.button.setAttribute('aria-label', point.name);
       parts.button.dataset.name = point.name;
-      parts.position.fromArray(point.position as [number, number, number]);
+      parts.position.fromArray(point.position);
     });
-    this.select(Math.min(this.#selected, points.length - 1));
+    this.select(Math.min(this.#selected, read.length - 1));
     if (focusGoes) this.#items.at(-1)?.button.focus({ preventScroll: true });
   }
 
   /** Places a handle without telling anyone. */
   setPosition(index: number, x: number, y: number, z: number): void {
-    this.#items[index]?.position.set(x, y, z);
+    this.#item(index).position.set(finite(x, 'x'), finite(y, 'y'), finite(z, 'z'));
   }
 
   /** What assistive technology says of a handle after its name, for instance "moved 12 % up". */
   describe(index: number, text: string): void {
-    const item = this.#items[index];
-    if (item && item.description.textContent !== text) item.description.textContent = text;
+    const { description } = this.#item(index);
+    if (description.textContent !== words(text, 'text')) description.textContent = text;
   }
 
   description(index: number): string {
-    return this.#items[index]?.description.textContent ?? '';
+    return this.#item(index).description.textContent ?? '';
   }
 
   /** Marks a handle as lying on the model's far side. */
   setAway(index: number, away: boolean): void {
-    this.#items[index]?.button.toggleAttribute('data-away', away);
+    this.#item(index).button.toggleAttribute('data-away', flag(away, 'away'));
   }
 
   element(index: number): HTMLButtonElement | undefined {
-    return this.#items[index]?.button;
+    return this.#items[finite(index, 'index')]?.button;
   }
 
+  /** The chosen one; −1 for none. */
   select(index: number): void {
+    if (index !== -1) this.#item(index);
     if (index === this.#selected) return;
     this.#selected = index;
     this.#items.forEach(({ button }, i) => {
@@ -165,6 +209,10 @@ export class BareHandles {
 
   dispose(): void {
     this.set([]);
+  }
+
+  #item(index: number): Item {
+    return this.#items[numberOf(index, 'index', this.#items.length)] as Item;
   }
 
   #make(index: number): Omit<Item, 'removable'> {

@@ -1,3 +1,17 @@
+import {
+  finite,
+  flag,
+  list,
+  named,
+  object,
+  optional,
+  positive,
+  type Reader,
+  options as readOptions,
+  refused,
+  text,
+} from '../../../wasm/ts/arguments.ts';
+
 /** One thing that a figure's state holds: what it is at first, and how a line of text says it. */
 export interface Channel<T> {
   readonly initial: T;
@@ -82,6 +96,30 @@ export interface RangeOptions<T> {
   readonly rare?: boolean;
 }
 
+const SCALES = ['even', 'log', 'log-zero'] as const;
+const RANGE_DEFAULTS = { scale: 'even', step: 0.1, rare: false } as const;
+
+/** A number that comes after others were read, which it has to fit. */
+const fitting =
+  (wanted: string, fits: (value: number, read: RangeOptions<number>) => boolean): Reader<number> =>
+  (value, name, read) => {
+    if (fits(finite(value, name), read as unknown as RangeOptions<number>)) return value as number;
+    throw refused(name, value, `Give ${wanted}.`);
+  };
+
+const lowest = ({ scale, from }: RangeOptions<number>) => (scale === 'log-zero' ? 0 : from);
+const within = fitting('a number from "from" to "to"', (x, read) => x >= lowest(read) && x <= read.to);
+
+const RANGE_READERS = {
+  scale: named(SCALES),
+  from: fitting('a number above 0: a logarithmic scale has no other', (x, { scale }) => scale === 'even' || x > 0),
+  to: fitting('a number above "from"', (x, { from }) => x > from),
+  value: within,
+  step: positive,
+  rare: flag,
+};
+const AUTO_READERS = { ...RANGE_READERS, value: named(['auto'], within, 'a number from "from" to "to"') };
+
 /**
  * A number on a slider, which is even in the number or in its logarithm.
  *
@@ -89,7 +127,11 @@ export interface RangeOptions<T> {
  * const width = range('Width', { from: 0.2, to: 4, value: 1, scale: 'log' });
  * ```
  */
-export function range(label: string, { from, to, value, scale = 'even', step = 0.1, rare = false }: RangeOptions<number>): Range {
+export function range(label: string, options: RangeOptions<number>): Range {
+  return slider(text(label, 'label'), readOptions(options, RANGE_READERS, RANGE_DEFAULTS));
+}
+
+function slider(label: string, { from, to, value, scale, step, rare }: Required<RangeOptions<number>>): Range {
   const low = scale === 'log-zero' ? 0 : from;
   return {
     type: 'range',
@@ -116,14 +158,33 @@ export function range(label: string, { from, to, value, scale = 'even', step = 0
  * ```
  */
 export function autoRange(label: string, options: RangeOptions<number | 'auto'>): AutoRange {
-  const numbers = range(label, { ...options, value: options.from });
+  const read = readOptions(options, AUTO_READERS, RANGE_DEFAULTS);
+  const numbers = slider(text(label, 'label'), { ...read, value: read.from });
   return {
     ...numbers,
     type: 'auto-range',
-    initial: options.value,
+    initial: read.value,
     read: (text) => (text === 'auto' ? 'auto' : readAlone(numbers, text)),
     write: String,
   };
+}
+
+const CHOICE = 'Give { value: "Label" }, or an array of [value, label], with one of them at the least.';
+
+function readChoices(given: unknown): Option<string>[] {
+  const choices = Array.isArray(given)
+    ? list(given, 'options', 'pairs', (each, name) => {
+        if (!Array.isArray(each)) throw refused(name, each, CHOICE);
+        text(each[0], `${name}[0]`);
+        text(each[1], `${name}[1]`);
+        optional(text)(each[2], `${name}[2]`);
+        return each as unknown as Option<string>;
+      })
+    : Object.entries(object(given, 'options', CHOICE)).map(
+        ([value, label]): Option<string> => [value, text(label, `options.${value}`)],
+      );
+  if (choices.length > 0) return choices;
+  throw refused('options', given, CHOICE);
 }
 
 /**
@@ -135,18 +196,19 @@ export function autoRange(label: string, options: RangeOptions<number | 'auto'>)
  */
 export function choice<T extends string>(
   label: string,
-  given: readonly Option<T>[] | Readonly<Record<T, string>>,
-  { rare = false, open = false, value }: { readonly rare?: boolean; readonly open?: boolean; readonly value?: NoInfer<T> } = {},
+  options: readonly Option<T>[] | Readonly<Record<T, string>>,
+  settings: { readonly rare?: boolean; readonly open?: boolean; readonly value?: NoInfer<T> } = {},
 ): Choice<T> {
-  const options = 'length' in given ? (given as readonly Option<T>[]) : (Object.entries(given) as [T, string][]);
-  const [first] = options;
-  if (!first) throw new Error('A choice needs an option.');
-  const values: readonly T[] = options.map(([option]) => option);
+  const choices = readChoices(options) as Option<T>[];
+  const values: readonly T[] = choices.map(([option]) => option);
+  const readers = { rare: flag, open: flag, value: named(values) };
+  const defaults = { rare: false, open: false, value: values[0] as T };
+  const { rare, open, value } = readOptions(settings, readers, defaults, 'settings');
   return {
     type: 'choice',
-    label,
-    options,
-    initial: value ?? first[0],
+    label: text(label, 'label'),
+    options: choices,
+    initial: value,
     rare,
     open,
     read: (text) => values.find((option) => option === text),
@@ -161,11 +223,12 @@ export function choice<T extends string>(
  * const shown = toggle('Show the kernels', true);
  * ```
  */
-export function toggle(label: string, initial = false, { rare = false }: { readonly rare?: boolean } = {}): Switch {
+export function toggle(label: string, initial = false, settings: { readonly rare?: boolean } = {}): Switch {
+  const { rare } = readOptions(settings, { rare: flag }, { rare: false }, 'settings');
   return {
     type: 'switch',
-    label,
-    initial,
+    label: text(label, 'label'),
+    initial: flag(initial, 'initial'),
     rare,
     read: (text) => (text === 'yes' || text === 'no' ? text === 'yes' : undefined),
     write: (value) => (value ? 'yes' : 'no'),

@@ -1,5 +1,7 @@
+import { callback, list, named, optional, type Reader, type Readers, refused, text } from '../../../wasm/ts/arguments.ts';
 import type { HandlebodyRuntime } from '../../../wasm/ts/runtime.ts';
 import type { Channels, Parameter, StateOf } from './channel.ts';
+import { anything, check, each, listed, maybe, record } from './given.ts';
 import type { Former, Mend, Preset } from './state-text.ts';
 
 /** What long work hears and tells. */
@@ -133,6 +135,65 @@ export interface Made {
   dispose?(): void;
 }
 
+const CHANNEL = { initial: anything, read: callback, write: callback };
+const PRESET = {
+  id: text,
+  name: text,
+  title: maybe.text,
+  look: maybe.text,
+  attempt: maybe.text,
+  state: record,
+} satisfies Readers<Preset<Channels>>;
+const PART = {
+  parameter: callback,
+  read: callback,
+  write: callback,
+  when: maybe.callback,
+} satisfies Readers<PartControl<unknown>>;
+const SIDES = { label: text, options: (value, name) => list(value, name, 'pairs', (pair) => pair), of: callback } satisfies Readers<
+  Sides<Channels>
+>;
+const PANEL = {
+  place: optional(named(['above', 'below', 'tools'])),
+  shown: maybe.callback,
+  open: callback,
+} satisfies Readers<Panel<OpenPanel<unknown, unknown>, unknown>>;
+
+/** Some of the channels, by their names. */
+const channels: Reader<unknown> = optional((value, name, read) =>
+  list(value, name, 'names of parameters', (each, place) => named(Object.keys(read?.parameters ?? {}))(each, place)),
+);
+
+const presets = listed(PRESET, 'Give { id, name, state }.');
+
+const FIGURE = {
+  id: text,
+  title: text,
+  titleOf: maybe.callback,
+  parameters: each(CHANNEL, 'Give what range(), choice() and the like make, by names.'),
+  heading: maybe.text,
+  parts: optional(listed(PART, 'Give { parameter, read, write }.')),
+  presets: (value, name) => {
+    presets(value, name);
+    if ((value as readonly unknown[]).length === 0) throw refused(name, value, 'Give one at the least: a figure begins with it.');
+  },
+  sides: optional((value, name) => check(value, SIDES, name, 'Give { label, options, of }.')),
+  thumbnail: maybe.callback,
+  former: optional(record),
+  mend: maybe.callback,
+  moving: channels,
+  shown: channels,
+  kept: channels,
+  whole: maybe.flag,
+  sketch: maybe.callback,
+  make: callback,
+  move: maybe.callback,
+  settle: maybe.callback,
+  panels: each(PANEL, 'Give what linePlot() makes, or { open(kit) }, by names.'),
+  told: maybe.callback,
+  say: maybe.callback,
+} satisfies Readers<AnyFigure>;
+
 /**
  * A figure, by what can be set, what the solver makes of that and what is drawn and told of it.
  *
@@ -149,5 +210,11 @@ export interface Made {
  * ```
  */
 export function define<const C extends Channels, M extends Made>(figure: Figure<C, M>): Figure<C, M> {
+  checkFigure(figure);
   return figure;
+}
+
+/** Refuses what is no figure, by the name of what is wrong. @internal */
+export function checkFigure(figure: unknown): void {
+  check(figure, FIGURE, 'figure', 'Give what define() takes and returns.');
 }

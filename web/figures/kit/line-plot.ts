@@ -1,8 +1,10 @@
+import { callback, finite, optional, type Reader, type Readers, refused, text } from '../../../wasm/ts/arguments.ts';
 import { h, match, svg, write } from '../../ui/dom.ts';
 import { Chart, type Curve } from './chart.ts';
 import type { Kit, Panel } from './figure.ts';
+import { array, check, listed, maybe } from './given.ts';
 import { Handles, type PointActions } from './handles.ts';
-import { type PointEditing, type PointOptions, pointActions } from './point-actions.ts';
+import { POINT_READERS, type PointEditing, type PointOptions, pointActions } from './point-actions.ts';
 import { tidy } from './point-set.ts';
 import { asLong, type Frame, Samples } from './samples.ts';
 import { swatch } from './swatch.ts';
@@ -37,6 +39,40 @@ export interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
   draw(plot: LinePlot<M, S>, made: M, state: S, change: (patch: Partial<S>) => void): void;
 }
 
+const EDGES = 'Give [left, right, bottom, top], left below right and bottom below top.';
+const edges = array(4, EDGES);
+const frame: Reader<unknown> = (value, name) => {
+  const { 0: left = 0, 1: right = 0, 2: bottom = 0, 3: top = 0 } = edges(value, name);
+  if (left >= right || bottom >= top) throw refused(name, value, EDGES);
+};
+
+const evaluable: Reader<Evaluable> = (value, name) => {
+  if (typeof (value as Evaluable | null)?.evaluate === 'function') return value as Evaluable;
+  throw refused(name, value, 'Give an interpolant, or { evaluate(xs, out) }.');
+};
+
+const LINE_PLOT = {
+  shown: maybe.callback,
+  label: text,
+  title: maybe.callback,
+  frame: (value, name) => (typeof value === 'function' ? value : frame(value, name)),
+  through: maybe.callback,
+  low: maybe.flag,
+  points: optional((value, name) => check(value, POINT_READERS, name, 'Give { points: "the channel of them" }.')),
+  draw: callback,
+} satisfies Readers<LinePlotOptions<unknown, unknown>>;
+
+const CURVE = {
+  detail: maybe.text,
+  dashed: maybe.flag,
+  key: maybe.number,
+  slot: maybe.number,
+  stale: maybe.flag,
+} satisfies Readers<CurveOptions>;
+
+const PLOT_HANDLE = { name: text, at: array(2, 'Give [x, y].'), move: callback } satisfies Readers<PlotHandle>;
+const plotHandles = listed(PLOT_HANDLE, 'Give { name, at: [x, y], move(x, y) }.');
+
 /**
  * A panel with curves over a line, and handles on it.
  *
@@ -49,6 +85,7 @@ export interface LinePlotOptions<M, S> extends Pick<Panel<M, S>, 'shown'> {
  * ```
  */
 export function linePlot<M, S>(options: LinePlotOptions<M, S>): Panel<M, S> {
+  check(options, LINE_PLOT, 'options', 'Give { label, frame, draw }.');
   const { shown, draw } = options;
   return {
     ...(shown && { shown }),
@@ -135,7 +172,11 @@ export class LinePlot<M, S> {
     return this.#xs;
   }
 
-  curve(name: string, f: Evaluable, { detail = '', dashed, key, slot, stale }: CurveOptions = {}): this {
+  curve(name: string, f: Evaluable, options: CurveOptions = {}): this {
+    text(name, 'name');
+    evaluable(f, 'f');
+    check(options, CURVE, 'options', 'Give an object of options.');
+    const { detail = '', dashed, key, slot, stale } = options;
     const i = this.#curves.length;
     const label = { name, detail };
     this.#curves.push({
@@ -152,6 +193,7 @@ export class LinePlot<M, S> {
 
   /** A function with the area between it and zero. */
   area(f: Evaluable): this {
+    evaluable(f, 'f');
     const chart = this.#chart;
     const zero = chart.y(0).toFixed(1);
     this.#paths.push(`M0 ${zero}${chart.path(this.#xs, this.#row(f)).replace('M', 'L')}L${chart.width} ${zero}Z`);
@@ -160,12 +202,13 @@ export class LinePlot<M, S> {
 
   /** A line from below to above, and what it marks. */
   rule(x: number, words: string): this {
-    const at = this.#chart.x(x).toFixed(1);
-    this.#rules.push([at, words]);
+    const at = this.#chart.x(finite(x, 'x')).toFixed(1);
+    this.#rules.push([at, text(words, 'words')]);
     return this;
   }
 
   handles(handles: readonly PlotHandle[]): this {
+    plotHandles(handles, 'handles');
     this.#handles = handles;
     return this;
   }

@@ -1,6 +1,8 @@
+import { type Readers, text } from '../../../wasm/ts/arguments.ts';
 import { readable } from '../../ui/dom.ts';
 import type { FieldActions } from './field-panel.ts';
 import type { Kit } from './figure.ts';
+import { maybe } from './given.ts';
 import { addPoint, MOST_POINTS, movePoint, type PointSet, placeOf, removePoint, tidy } from './point-set.ts';
 import type { Frame } from './samples.ts';
 
@@ -16,6 +18,14 @@ export interface PointOptions<M, S> {
   /** Points that stand out. */
   outliers?(made: M): readonly number[];
 }
+
+export const POINT_READERS = {
+  points: text,
+  picked: maybe.text,
+  range: maybe.callback,
+  guess: maybe.callback,
+  outliers: maybe.callback,
+} satisfies Readers<PointOptions<unknown, never>>;
 
 /** What can be done to the points of a channel, by handles and otherwise. */
 export interface PointEditing extends FieldActions {

@@ -1,3 +1,4 @@
+import { list, numbers, object, refused, row, whole } from '../../../wasm/ts/arguments.ts';
 import type { Channel } from './channel.ts';
 
 /** Points with a value each: on a line (dimension 1) or in the plane. Never changed in place: a move gives another set. */
@@ -18,8 +19,20 @@ export const MOST_POINTS = 60;
  * const f = hb.shepard(dataOf(onALine([[1, 2], [3, 1]]).initial));
  * ```
  */
-export function dataOf({ dimension, places, values }: PointSet): { dimension: 1 | 2; points: number[]; values: number[] } {
-  return { dimension, points: [...places], values: [...values] };
+export function dataOf(set: PointSet): { dimension: 1 | 2; points: number[]; values: number[] } {
+  const given = object(set, 'set', 'Give what a channel of onALine() or inThePlane() holds.');
+  const dimension = whole(1, 2)(given.dimension, 'set.dimension') as 1 | 2;
+  const values = Array.from(numbers(given.values, 'set.values'));
+  return { dimension, points: Array.from(row(given.places, 'set.places', values.length * dimension)), values };
+}
+
+/** Rows of points, read: place and value. */
+function rowsOf(points: unknown, width: number): number[][] {
+  const rows = list(points, 'points', width === 2 ? '[x, value]' : '[x, y, value]', (each, name) =>
+    Array.from(row(each, name, width)),
+  );
+  if (rows.length <= MOST_POINTS) return rows;
+  throw refused('points', points, `Give ${MOST_POINTS} at the most: no more can be told apart.`);
 }
 
 /**
@@ -30,7 +43,7 @@ export function dataOf({ dimension, places, values }: PointSet): { dimension: 1 
  * ```
  */
 export function onALine(points: readonly (readonly [x: number, value: number])[]): Channel<PointSet> {
-  return channelOf({ dimension: 1, places: points.map(([x]) => x), values: points.map(([, value]) => value) });
+  return initially(1, rowsOf(points, 2));
 }
 
 /**
@@ -41,11 +54,12 @@ export function onALine(points: readonly (readonly [x: number, value: number])[]
  * ```
  */
 export function inThePlane(points: readonly (readonly [x: number, y: number, value: number])[]): Channel<PointSet> {
-  return channelOf({
-    dimension: 2,
-    places: points.flatMap((point) => point.slice(0, 2)),
-    values: points.map(([, , value]) => value),
-  });
+  return initially(2, rowsOf(points, 3));
+}
+
+function initially(dimension: 1 | 2, rows: readonly number[][]): Channel<PointSet> {
+  const values = rows.map((point) => point[dimension] as number);
+  return channelOf({ dimension, places: rows.flatMap((point) => point.slice(0, dimension)), values });
 }
 
 /** "x,value;x,value": a line that is partly wrong is no set of points. */

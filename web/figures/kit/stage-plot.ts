@@ -109,7 +109,7 @@ class Stage<S> {
       this.#surface = new Surface(rest);
       this.#group.add(this.#surface);
       this.#surface.geometry.computeBoundingSphere();
-      this.#overlay.step = (this.#surface.geometry.boundingSphere?.radius ?? 1) / 50;
+      this.#overlay.step = (this.#surface.geometry.boundingSphere?.radius || 1) / 50;
     }
     write(this.#surface);
     this.#surface.moved();
