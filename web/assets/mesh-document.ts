@@ -1,5 +1,5 @@
 import { Document } from '@gltf-transform/core';
-import { object, text } from '../../wasm/ts/arguments.ts';
+import { numbers, object, text } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { TypedArray } from '../../wasm/ts/types.ts';
 import { areaNormals } from './area-normals.ts';
@@ -31,7 +31,11 @@ export interface GlbMesh {
 export function meshDocument(mesh: GlbMesh, name = ''): Document {
   object(mesh, 'mesh', 'Give { positions, triangles }.');
   text(name, 'name');
-  const { positions, triangles = new Uint32Array(), normals, uvs, origin } = mesh;
+  const read = (key: keyof GlbMesh) => numbers(mesh[key], key, { finite: false }) as TypedArray;
+  const readIf = (key: keyof GlbMesh) => (mesh[key] === undefined ? undefined : read(key));
+  const [positions, triangles = new Uint32Array()] = [read('positions'), readIf('triangles')];
+  const [normals, uvs] = [readIf('normals'), readIf('uvs')];
+  const origin = readIf('origin') && mesh.origin;
   check({ positions, triangles, normals, uvs, origin });
   const document = new Document();
   const buffer = document.createBuffer();

@@ -1,5 +1,5 @@
 import type { Document, Mesh } from '@gltf-transform/core';
-import { object } from '../../wasm/ts/arguments.ts';
+import { list, object } from '../../wasm/ts/arguments.ts';
 import { gltfDocument, gltfMesh } from './given.ts';
 import { PoseSpaceExtension, type PoseSpaceProperty } from './pose-space-extension.ts';
 import { type PoseSpaceData, type PoseSpaceInput, parsePoseSpace, poseSpaceDefinition } from './pose-space-schema.ts';
@@ -24,7 +24,9 @@ import { inWordsAtOnce } from './words-at-once.ts';
 export function attachPoseSpace(document: Document, mesh: Mesh, poseSpace: PoseSpaceInput): PoseSpaceProperty {
   gltfDocument(document, 'document');
   gltfMesh(mesh, 'mesh');
-  object(poseSpace, 'poseSpace', 'Give { dimensions, examples }.');
+  const { dimensions, examples } = object(poseSpace, 'poseSpace', 'Give { dimensions, examples }.');
+  list(dimensions, 'poseSpace.dimensions', '{ name, min, max }', (each) => each);
+  list(examples, 'poseSpace.examples', '{ name, at, weights }', (each, name) => object(each, name, 'Give { name, at, weights }.'));
   const definition = poseSpaceDefinition(poseSpace);
   inWordsAtOnce(() => parsePoseSpace(definition, { targetCount: morphTargetCount(mesh) }));
   const former = mesh.getExtension<PoseSpaceProperty>(HANDLEBODY_POSE_SPACE);

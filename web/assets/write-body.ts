@@ -25,7 +25,8 @@ import { inWordsAtOnce } from './words-at-once.ts';
  */
 export async function attachBody(document: Document, body: BodyData): Promise<BodyProperty> {
   gltfDocument(document, 'document');
-  object(body, 'body', 'Give what bake() made.');
+  const parts = object(body, 'body', 'Give what bake() made.');
+  for (const part of ['mesh', 'normalization', 'grid']) object(parts[part], `body.${part}`, 'Give what bake() made.');
   const header = inWordsAtOnce(() => headerOf(body));
   const checked = { ...body, ...header, mesh: readMesh(document, { reading: header.reading ?? {} }).mesh };
   inWordsAtOnce(() => checkBody(checked));

@@ -5,6 +5,7 @@ import { PageError } from '../ui/page-error.ts';
 import { Progress } from '../ui/progress.ts';
 import { tellOf } from '../ui/solver-end.ts';
 import { adopt } from './adopt.ts';
+import { wrongProperty } from './property.ts';
 import { STYLES } from './styles.generated.ts';
 
 /** HTMLElement; on a server, where there is none, importing the module is safe and defines nothing. */
@@ -96,7 +97,7 @@ export abstract class ElementBase extends PageElement {
   }
 
   set alt(words: string) {
-    this.setAttribute('alt', words);
+    this.keep('alt', words);
   }
 
   /** Whether what was asked for last is shown. */
@@ -162,6 +163,14 @@ export abstract class ElementBase extends PageElement {
 
   /** An attribute of the element's own is another one. */
   protected abstract changed(attribute: string): void;
+
+  /** Keeps a property as its attribute; `undefined` takes that away. What it cannot be is told, and what was there stays. @internal */
+  protected keep(name: string, value: unknown, type: 'string' | 'boolean' = 'string'): void {
+    if (value === undefined) this.removeAttribute(name);
+    else if (typeof value !== type) this.tell(wrongProperty(name, value, `a ${type}`));
+    else if (type === 'boolean') this.toggleAttribute(name, value as boolean);
+    else this.setAttribute(name, value as string);
+  }
 
   /** There is a picture: the poster goes. */
   protected first(): void {

@@ -2,6 +2,7 @@ import type { BodyShowing, BodyState, HandleChange } from './body-showing.ts';
 import type { HandleBodyEvents } from './events.ts';
 import { type AskedHandle, readHandles, writeHandles } from './handles-text.ts';
 import { ModelElement, type ModelOptions, readOr } from './model-element.ts';
+import { isPlace, wrongProperty } from './property.ts';
 
 /**
  * A model that is deformed by dragging: `<handle-body src="dog.glb" alt="A dog">`. A model that was not baked is baked when it comes.
@@ -31,7 +32,11 @@ export class HandleBodyElement extends ModelElement {
   }
 
   set handles(handles: readonly AskedHandle[] | string) {
-    this.setAttribute('handles', typeof handles === 'string' ? handles : writeHandles(handles));
+    try {
+      this.keep('handles', typeof handles === 'object' ? writeHandles(handles) : handles);
+    } catch (error) {
+      this.tell(error);
+    }
   }
 
   /** Where the handles are to go, model units: write it, and the body follows. Empty until it has come. */
@@ -40,11 +45,13 @@ export class HandleBodyElement extends ModelElement {
   }
 
   set targets(targets: readonly (readonly [number, number, number])[]) {
-    this.shown?.move(targets);
+    if (Array.isArray(targets) && targets.every(isPlace)) this.shown?.move(targets);
+    else this.tell(wrongProperty('targets', targets, 'three coordinates for each handle: [[0, 1, 0], [1, 0, 0]]'));
   }
 
   /** Where a vertex of the model is now, model units. */
   vertex(index: number): readonly [number, number, number] | undefined {
+    if (!(Number.isInteger(index) && index >= 0)) throw wrongProperty('index', index, 'a vertex number, from 0 on');
     return this.shown?.vertex(index);
   }
 

@@ -2,6 +2,7 @@ import type { Told } from '../figures/kit/figure.ts';
 import { ElementBase, type Showing } from './element-base.ts';
 import type { HandleFigureEvents } from './events.ts';
 import type { FigureShowing } from './figure-showing.ts';
+import { wrongProperty } from './property.ts';
 
 /**
  * A live figure: `<handle-figure name="course-12" controls caption></handle-figure>`.
@@ -29,7 +30,7 @@ export class HandleFigureElement extends ElementBase {
   }
 
   set name(name: string) {
-    this.setAttribute('name', name);
+    this.keep('name', name);
   }
 
   /** One line of text; setting it shows what it says, as far as it can be read. */
@@ -38,8 +39,13 @@ export class HandleFigureElement extends ElementBase {
   }
 
   set state(text: string) {
-    this.#left = text;
-    if (this.#figure) this.#figure.state = text;
+    const line: unknown = text === undefined ? '' : text;
+    if (typeof line !== 'string') {
+      this.tell(wrongProperty('state', line, 'a line of text, such as the property itself is'));
+      return;
+    }
+    this.#left = line;
+    if (this.#figure) this.#figure.state = line;
   }
 
   /** The solver's own numbers: name, and number or sentence. Empty until the figure is ready. */

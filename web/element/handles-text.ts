@@ -1,4 +1,7 @@
 import { PageError } from '../ui/page-error.ts';
+import { isPlace, wrongProperty } from './property.ts';
+
+const ASKED = 'a list of { name, vertex } or { name, at: [x, y, z] }, or text as the attribute has it';
 
 /** A handle as a page asks for it: a vertex of the model, or a place inside, model units. */
 export type AskedHandle = ({ readonly vertex: number } | { readonly at: readonly [number, number, number] }) & {
@@ -23,9 +26,15 @@ export function readHandles(text: string): AskedHandle[] {
   });
 }
 
-/** The inverse of `readHandles`. */
+/** The inverse of `readHandles`. Throws where the property of a page is no list of handles. */
 export function writeHandles(handles: readonly AskedHandle[]): string {
+  if (!Array.isArray(handles)) throw wrongProperty('handles', handles, ASKED);
   return handles
-    .map((handle) => `${handle.name ? `${handle.name}: ` : ''}${'vertex' in handle ? handle.vertex : handle.at.join(' ')}`)
+    .map((handle: Partial<Record<'name' | 'vertex' | 'at', unknown>> | null | undefined, i) => {
+      const { name = '', vertex, at } = handle ?? {};
+      const isVertex = Number.isInteger(vertex) && (vertex as number) >= 0;
+      if (typeof name !== 'string' || !(isVertex || isPlace(at))) throw wrongProperty(`handles[${i}]`, handle, ASKED);
+      return `${name && `${name}: `}${isVertex ? vertex : (at as number[]).join(' ')}`;
+    })
     .join(', ');
 }

@@ -60,7 +60,7 @@ export abstract class ModelElement extends ElementBase {
   }
 
   set src(address: string) {
-    this.setAttribute('src', address);
+    this.keep('src', address);
   }
 
   get controls(): boolean {
@@ -68,7 +68,7 @@ export abstract class ModelElement extends ElementBase {
   }
 
   set controls(shown: boolean) {
-    this.toggleAttribute('controls', shown);
+    this.keep('controls', shown, 'boolean');
   }
 
   get views(): string {
@@ -76,7 +76,7 @@ export abstract class ModelElement extends ElementBase {
   }
 
   set views(descriptions: string) {
-    this.setAttribute('views', descriptions);
+    this.keep('views', descriptions);
   }
 
   get camera(): string {
@@ -84,7 +84,7 @@ export abstract class ModelElement extends ElementBase {
   }
 
   set camera(angles: string) {
-    this.setAttribute('camera', angles);
+    this.keep('camera', angles);
   }
 
   /** Shows it, from `this.state` where there is one. @internal */

@@ -1,4 +1,5 @@
 import { PageError } from '../ui/page-error.ts';
+import { wrongProperty } from './property.ts';
 
 /** A place in a pose space by the names of its dimensions; what is left out is 0. */
 export type NamedPlace = Readonly<Record<string, number>>;
@@ -18,6 +19,15 @@ export function readPlace(text: string): NamedPlace {
       );
     }),
   );
+}
+
+/** A place that a program gave. Throws what it cannot be. */
+export function checkPlace(place: NamedPlace): NamedPlace {
+  const wanted = 'numbers by the names of dimensions, or text: "valence=0.6, arousal=0.4"';
+  if (Object.prototype.toString.call(place) !== '[object Object]') throw wrongProperty('at', place, wanted);
+  for (const [name, number] of Object.entries(place))
+    if (number !== undefined && !Number.isFinite(number)) throw wrongProperty(`at.${name}`, number, wanted);
+  return place;
 }
 
 /** One number a dimension, in their order. Throws where a name is none of them. */

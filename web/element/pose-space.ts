@@ -1,6 +1,6 @@
 import type { PoseSpaceEvents } from './events.ts';
 import { ModelElement, type ModelOptions, readOr } from './model-element.ts';
-import { type NamedPlace, readPlace } from './place-text.ts';
+import { checkPlace, type NamedPlace, readPlace } from './place-text.ts';
 import type { PlaceChange, PoseShowing, PoseState } from './pose-showing.ts';
 
 /**
@@ -30,10 +30,18 @@ export class PoseSpaceElement extends ModelElement {
   }
 
   set at(place: NamedPlace | string) {
-    if (this.shown) this.attempt(() => this.shown?.go(typeof place === 'string' ? readPlace(place) : place));
+    const { shown } = this;
+    const written = () => readPlace(this.getAttribute('at') ?? '');
+    const read = () => (place === undefined ? written() : typeof place === 'string' ? readPlace(place) : checkPlace(place));
+    if (shown) this.attempt(() => shown.go(read()));
     // Text that cannot be read is told when the model comes.
     else if (typeof place === 'string') this.setAttribute('at', place);
-    else this.state = { ...this.state, at: place };
+    else
+      try {
+        this.state = { ...this.state, at: read() };
+      } catch (error) {
+        this.tell(error);
+      }
   }
 
   /** The examples' weights at the place where it is: name, and number. Empty until it has come. */

@@ -75,6 +75,8 @@ const AT_REST = 5e-4;
 const handleList = (value: unknown, name: string) =>
   list(value, name, 'handles', (each, label) => record(each, label, 'Give { vertex } or { at }.'));
 
+const BAKED = 'Give what bake() made, or a baked file holds.';
+
 const READERS = {
   hb: solver,
   camera,
@@ -106,7 +108,8 @@ const READERS = {
  */
 export function draggable(object: Object3D, body: BodyData, options: DraggableOptions): Draggable {
   object3D(object, 'object');
-  record(body, 'body', 'Give what bake() made, or a baked file holds.');
+  const { mesh } = record(body, 'body', BAKED);
+  record(mesh, 'body.mesh', BAKED);
   readOptions(options, READERS);
   return new Draggable(object, body, {
     ...options,

@@ -2,7 +2,9 @@
 import { BoxGeometry, Mesh, MeshBasicMaterial, PerspectiveCamera, Raycaster, Vector3 } from 'three';
 import { type BodyData, load } from '../../../wasm/ts/index.ts';
 import { meshDocument, writeGlb } from '../../../web/assets/index.ts';
-import { DeformedGeometry, deformable, draggable, meshFromObject, poseDriver } from '../../../web/three/index.ts';
+import { type AnyFigure, define, type Kit, linePlot, range } from '../../../web/figures/index.ts';
+import { LinePlot } from '../../../web/figures/kit/line-plot.ts';
+import { DeformedGeometry, deformable, draggable, HandleOverlay, meshFromObject, poseDriver } from '../../../web/three/index.ts';
 import { FakeElement, fakeDocument } from './fake-element.ts';
 
 export const hb = await load();
@@ -20,6 +22,31 @@ const irbf = () => {
   made.solve();
   return made;
 };
+
+const plotted = { label: 'A line', frame: [0, 5, 0, 5] as const, draw: () => {} };
+const figure = (): AnyFigure =>
+  define({
+    id: 'mine',
+    title: 'Mine',
+    parameters: { x: range('X', { from: 0, to: 10, value: 1 }) },
+    presets: [{ id: 'first', name: 'As it begins', state: {} }],
+    make: () => ({}),
+    panels: { plot: linePlot(plotted) },
+  });
+
+const overlay = () => {
+  fakeDocument();
+  const handles = new HandleOverlay({ camera: new PerspectiveCamera(), container: new FakeElement() as never });
+  handles.set([
+    { name: 'a', position: [0, 0, 0] },
+    { name: 'b', position: [0, 0, 0] },
+  ]);
+  return handles;
+};
+
+/** An element, whose module wants a page that is there before it. */
+const element = (name: 'HandleBodyElement' | 'PoseSpaceElement' | 'HandleFigureElement') => async () =>
+  new (await import('../../../web/element/index.ts'))[name]();
 
 /** In a page that is not there. */
 const dragged = () => {
@@ -78,6 +105,21 @@ export const samples: Readonly<Record<string, () => unknown>> = {
   PoseDriver: () =>
     poseDriver(hb, { dimensions: [{ name: 'x' }], examples: [{ name: 'a', at: [0], weights: [1] }], meshes: [box()] } as never),
   DeformedGeometry: () => new DeformedGeometry(meshFromObject(box()).parts),
+  HandleOverlay: overlay,
+  BareHandles: overlay,
+  // Figures and elements.
+  AnyFigure: figure,
+  Figure: figure,
+  RangeOptions: () => ({ from: 0, to: 10, value: 1 }),
+  LinePlotOptions: () => plotted,
+  PointSet: () => ({ dimension: 1, places: [0, 1], values: [1, 2] }),
+  LinePlot: () => new LinePlot({ state: {} } as Kit<object>, plotted),
+  Evaluable: () => ({ evaluate: (xs: Float64Array, out: Float64Array) => out.set(xs) }),
+  ElementBase: element('HandleFigureElement'),
+  ModelElement: element('PoseSpaceElement'),
+  HandleBodyElement: element('HandleBodyElement'),
+  PoseSpaceElement: element('PoseSpaceElement'),
+  HandleFigureElement: element('HandleFigureElement'),
   // Files.
   Document: () => meshDocument({ positions: mesh.positions, triangles: mesh.triangles } as never),
   FileBytes: () => writeGlb({ positions: mesh.positions, triangles: mesh.triangles } as never),
@@ -90,5 +132,8 @@ export const right: Readonly<Record<string, readonly unknown[]>> = {
   attachPoseSpace: [glb, glb.getRoot().listMeshes()[0]],
   'PoseSpace.weights': [[0]],
   'PoseSpace.evaluate': [[0]],
+  choice: ['Kernel', { gaussian: 'Gaussian', cubic: 'Cubic' }],
+  onALine: [[[1, 2]]],
+  inThePlane: [[[1, 2, 3]]],
   'Tetrahedra.sample': [hb.tetrahedralize(mesh, { resolution: 4 }).positions],
 };
