@@ -103,11 +103,11 @@ describe('the dog as served, 200 centers', async () => {
   it.each<[unknown, RegExp]>([
     [{}, /no list of at most 1000 handles/],
     [Array.from({ length: 1001 }, () => ({ name: '', vertex: 0 })), /no list of at most 1000 handles/],
-    [[{ vertex: 1 }], /no name for handle 0/],
+    [[{ vertex: 1 }], /handles\[0\]\.name/],
     [[{ name: 'a', vertex: -1 }], /handle 0 on no vertex, -1/],
     [[{ name: 'a', vertex: 1.5 }], /handle 0 on no vertex/],
-    [[{ name: 'a', at: [0, 1, null] }], /no place of handle 0/],
-    [[null], /no name for handle 0/],
+    [[{ name: 'a', at: [0, 1, null] }], /handles\[0\]\.at/],
+    [[null], /handles\[0\]\.name/],
   ])('is refused with handles that are none: %j', (handles, said) => {
     expect(() => inWordsAtOnce(() => parseBodyHeader({ ...served, handles }))).toThrow(said);
   });

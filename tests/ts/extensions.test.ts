@@ -282,7 +282,7 @@ describe('HANDLEBODY_pose_space', () => {
     const [mesh] = document.getRoot().listMeshes();
     const dimensions = POSES.dimensions.map((dimension, i) => (i === 0 ? dimension : { ...dimension, scale: scale as number }));
     expect(() => attachPoseSpace(document, mesh as NonNullable<typeof mesh>, { ...POSES, dimensions })).toThrow(
-      `dimensions[1].scale is ${JSON.stringify(scale)}.`,
+      `${JSON.stringify(scale)}, which is no finite number above 0 (HANDLEBODY_pose_space.dimensions[1].scale).`,
     );
   });
 

@@ -283,7 +283,7 @@ describe('images', () => {
     const failing = async () => Promise.reject(new Error('the disk is gone'));
     await expect(readGltf(withImage({ uri: 'skin.png' }), { resource: failing })).rejects.toMatchObject({
       code: 'file-unreadable',
-      message: expect.stringMatching(/"skin.png" \(image 0\).*the disk is gone/),
+      message: expect.stringMatching(/"skin.png" \(images\[0\]\.uri\).*the disk is gone/),
     });
   });
 });

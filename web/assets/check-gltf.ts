@@ -57,8 +57,8 @@ export function checkRequiredExtensions(json: GltfJson, supported: readonly stri
   const compression = COMPRESSIONS.get(missing);
   throw new HandlebodyError('file-unsupported', {
     message: compression
-      ? `The model is compressed with ${compression} (${missing}), which is not read here.`
-      : `The model needs the extension ${missing}, which is not read here.`,
+      ? `The model is compressed with ${compression} (${missing} in extensionsRequired), which is not read here.`
+      : `The model needs the extension ${missing} (extensionsRequired), which is not read here.`,
     remedy: compression
       ? `Export it without mesh compression${compression === 'Draco' ? ', or give the decoder: the option "draco" of readGlb' : ', and compress last'}.`
       : 'Export it without that extension, or register it.',

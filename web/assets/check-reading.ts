@@ -31,7 +31,7 @@ function isPart(part: unknown): boolean {
 
 function refuse(): never {
   throw new HandlebodyError('body-invalid', {
-    message: 'The baked body does not say how its scene was read.',
+    message: 'The baked body does not say how its scene was read (HANDLEBODY_body.reading).',
     remedy: 'The file is damaged or was edited: bake the model again.',
   });
 }

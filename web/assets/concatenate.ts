@@ -19,6 +19,8 @@ interface MeshPart {
   readonly indices?: ArrayLike<number> | undefined;
   /** From the part's space to the mesh's: 16 numbers, column-major. */
   readonly matrix?: Matrix;
+  /** For errors. */
+  readonly name?: string;
 }
 
 interface ConcatenateOptions {
@@ -106,7 +108,7 @@ export function checkSize(vertices: number, triangles: number): void {
   });
 }
 
-function renumberInto(out: Uint32Array, { indices, matrix = IDENTITY }: MeshPart, range: MeshRange): void {
+function renumberInto(out: Uint32Array, { indices, matrix = IDENTITY, name = '' }: MeshPart, range: MeshRange): void {
   const { start, count, firstTriangle, triangleCount } = range;
   const mirrored = determinant3(matrix) < 0;
   for (let k = 0; k < 3 * triangleCount; k++) {
@@ -116,7 +118,7 @@ function renumberInto(out: Uint32Array, { indices, matrix = IDENTITY }: MeshPart
     if (!(vertex >= 0 && vertex < count)) {
       const triangle = firstTriangle + Math.floor(k / 3);
       throw new HandlebodyError('mesh-index-out-of-range', {
-        message: `Triangle ${triangle} uses vertex ${vertex} of a part that has ${count} vertices.`,
+        message: `Triangle ${triangle} uses vertex ${vertex} of the part “${name}”, which has ${count} vertices.`,
         remedy: 'The file is damaged: export it again.',
         culprit: { kind: 'triangle', index: triangle },
       });

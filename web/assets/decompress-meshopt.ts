@@ -90,7 +90,7 @@ export async function decompressMeshopt(
     try {
       decoder.decodeGltfBuffer(bytes.subarray(offset, offset + length), count, stride, source, mode, filter);
     } catch (cause) {
-      throw damaged(`the compressed data of buffer view ${view} cannot be decoded`, cause);
+      throw damaged(`the compressed data of bufferViews[${view}] cannot be decoded`, cause);
     }
     const { extensions, ...plain } = views[view] as GltfJson;
     views[view] = { ...plain, ...without(extensions), buffer: behind, byteOffset: offset };
@@ -114,7 +114,7 @@ export async function decompressMeshopt(
 }
 
 function checkStream(view: number, owner: GltfJson, stream: GltfJson, buffers: readonly Uint8Array[]): Stream {
-  const fail = (what: string) => damaged(`the compressed buffer view ${view} ${what}`);
+  const fail = (what: string) => damaged(`the compressed bufferViews[${view}] ${what}`);
   const { buffer, byteOffset = 0, byteLength, byteStride: stride, count, mode, filter = 'NONE' } = stream;
   const source = isWhole(buffer) ? buffers[buffer] : undefined;
   if (!source) throw fail('names no buffer');

@@ -48,7 +48,7 @@ export function cornersOf({ indices, drawn, mode }: Drawing, vertexCount: number
  * A cloud has no triangles to say which of its points count: those that are not drawn are put where the first drawn one is. `positions` are
  * the part's own of the joined cloud.
  */
-export function gatherUndrawn(positions: Float32Array, drawing: Drawing): void {
+export function gatherUndrawn(positions: Float32Array, drawing: Drawing & { readonly name?: string }): void {
   const count = positions.length / 3;
   const drawn = new Uint8Array(count);
   let first = -1;
@@ -57,7 +57,7 @@ export function gatherUndrawn(positions: Float32Array, drawing: Drawing): void {
       const vertex = drawing.indices ? (drawing.indices[at] as number) : at;
       if (!(vertex >= 0 && vertex < count)) {
         throw new HandlebodyError('mesh-index-out-of-range', {
-          message: `Point ${at} uses vertex ${vertex} of a part that has ${count} vertices.`,
+          message: `Point ${at} uses vertex ${vertex} of the part “${drawing.name ?? ''}”, which has ${count} vertices.`,
           remedy: 'The file is damaged: export it again.',
           culprit: { kind: 'point', index: at },
         });

@@ -30,19 +30,19 @@ export class Resources {
 
   /** Throws 'file-invalid', 'file-unsupported' or 'file-unreadable', naming the buffer or image. */
   async get(uri: unknown, kind: 'buffer' | 'image', number: number): Promise<{ bytes: Uint8Array; mimeType?: string } | undefined> {
-    const what = `${kind} ${number}`;
-    if (typeof uri !== 'string') throw damaged(`the address of ${what} is no text`);
+    const what = `${kind}s[${number}]`;
+    if (typeof uri !== 'string') throw damaged(`${what}.uri is no text`);
     if (isDataUri(uri)) {
       try {
         return decodeDataUri(uri);
       } catch (cause) {
-        throw damaged(`${what} is in a damaged data URI`, cause);
+        throw damaged(`${what}.uri is a damaged data URI`, cause);
       }
     }
     if (!this.#resource) {
       if (kind === 'image') return undefined;
       throw new HandlebodyError('file-unsupported', {
-        message: `Buffer ${number} of the file lies outside it, in "${shortened(uri)}".`,
+        message: `The data of ${what} lies outside the file, in "${shortened(uri)}".`,
         remedy: 'Give its files along (the option "resource"), or export the model as one .glb file with everything inside.',
       });
     }
@@ -69,7 +69,7 @@ export class Resources {
     if (failure instanceof HandlebodyError) throw failure;
     const why = failure instanceof Error ? `: ${failure.message.replace(/\.$/, '')}` : '';
     throw new HandlebodyError('file-unreadable', {
-      message: `The model needs the file "${shortened(plain)}" (${kind} ${number}), which is not there${why}.`,
+      message: `The model needs the file "${shortened(plain)}" (${kind}s[${number}].uri), which is not there${why}.`,
       remedy: 'Keep the files of a .gltf together, or export the model as one .glb file with everything inside.',
       cause: failure,
     });

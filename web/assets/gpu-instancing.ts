@@ -13,7 +13,7 @@ export function refuseInstancing(document: Document): void {
   if (index === -1) return;
   const name = nodes[index]?.getName();
   throw new HandlebodyError('file-unsupported', {
-    message: `Node ${index}${name ? ` ("${name}")` : ''} draws its mesh many times (${NAME}), and a body knows each vertex once.`,
+    message: `nodes[${index}]${name ? ` ("${name}")` : ''} draws its mesh many times (${NAME}), and a body knows each vertex once.`,
     remedy:
       'Export the model without instancing, each copy as a node of its own; with glTF-Transform: document.transform(uninstance()).',
   });

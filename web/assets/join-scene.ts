@@ -106,6 +106,7 @@ export function joinScene<Source>(found: readonly ScenePart<Source>[], choices: 
     parts.map(({ part, positions, matrix }) => ({
       positions,
       matrix,
+      name: part.name,
       indices: isCloud ? undefined : cornersOf(part, positions.length / 3),
     })),
     { isCloud, origin: known?.origin },

@@ -51,7 +51,7 @@ abstract class KeptProperty extends ExtensionProperty<IKeptProperty> {
   }
 
   setJson(json: object): this {
-    return this.set('json', plainCopy(json));
+    return this.set('json', plainCopy(json, this.extensionName));
   }
 }
 

@@ -43,7 +43,8 @@ async function fetchBuffers(json: GltfJson, bin: Uint8Array | undefined, resourc
     else buffers[i] = (await resources.get(uri, 'buffer', i))?.bytes ?? empty;
     const there = (buffers[i] as Uint8Array).length;
     if (fallbacks.has(i) || typeof byteLength !== 'number' || there >= byteLength) continue;
-    const name = typeof uri === 'string' && !/^data:/i.test(uri) ? `"${uri.slice(0, 80)}"` : `Buffer ${i}`;
+    const name =
+      typeof uri === 'string' && !/^data:/i.test(uri) ? `"${uri.slice(0, 80)}" (buffers[${i}])` : `The data of buffers[${i}]`;
     throw new HandlebodyError('file-truncated', {
       message: `${name} is cut off: it should have ${byteLength} bytes, and ${there} are there.`,
       remedy: 'Download or export it again.',
@@ -65,7 +66,7 @@ async function fetchImages(json: GltfJson, buffers: readonly Uint8Array[], resou
     const found = await resources.get(uri, 'image', i);
     if (!found) continue;
     const { bytes } = found;
-    if (bytes.length === 0) throw damaged(`image ${i} is empty`);
+    if (bytes.length === 0) throw damaged(`images[${i}] is empty`);
     if (!views.has(bytes)) {
       lists.bufferViews.push({ buffer: lists.buffers.length, byteLength: bytes.length });
       lists.buffers.push({ byteLength: bytes.length });

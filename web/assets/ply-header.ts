@@ -38,6 +38,8 @@ export interface PlyProperty {
 export interface PlyElement {
   readonly name: string;
   readonly count: number;
+  /** Of the header. */
+  readonly line: number;
   readonly properties: PlyProperty[];
 }
 
@@ -67,12 +69,12 @@ export function parsePlyHeader(source: TextSource, passed: PassedOver): PlyHeade
     const [keyword = '', ...rest] = words;
     if (number === 1) {
       if (text.trimEnd() !== 'ply') throw fail(1, `is ${quote(text)} and should be "ply"`);
-    } else if (keyword === 'format') format = parseFormat(rest, (what) => fail(number, what));
+    } else if (keyword === 'format') format = parseFormat(rest, number, (what) => fail(number, what));
     else if (keyword === 'element') {
       const count = Number(rest[1]);
       if (rest.length !== 2 || !/^\d+$/.test(rest[1] ?? '') || !Number.isSafeInteger(count))
         throw fail(number, 'should give the name of an element and how many there are');
-      elements.push({ name: rest[0] as string, count, properties: [] });
+      elements.push({ name: rest[0] as string, count, line: number, properties: [] });
     } else if (keyword === 'property') {
       const element = elements.at(-1);
       if (!element) throw fail(number, 'gives a property before any element');
@@ -97,10 +99,10 @@ export function parsePlyHeader(source: TextSource, passed: PassedOver): PlyHeade
 
 type Fail = (what: string) => HandlebodyError;
 
-function parseFormat([name, version]: string[], fail: Fail): PlyHeader['format'] {
+function parseFormat([name, version]: string[], line: number, fail: Fail): PlyHeader['format'] {
   if (version !== '1.0') {
     throw new HandlebodyError('file-unsupported', {
-      message: `The PLY file has format version ${quote(version ?? '')}; 1.0 is read.`,
+      message: `Line ${line} of the PLY file names format version ${quote(version ?? '')}; 1.0 is read.`,
       remedy: 'Export the model with a current tool.',
     });
   }
@@ -141,10 +143,10 @@ function endOfHeader(head: Uint8Array): number {
 function checkLength({ format, elements, start }: PlyHeader, source: TextSource): void {
   const { length } = source.bytes;
   let needed = start;
-  for (const { name, count, properties } of elements) {
+  for (const { name, count, line, properties } of elements) {
     if (properties.length === 0 && count > 0) {
       throw new HandlebodyError('file-invalid', {
-        message: `The PLY file's element ${quote(name)} has no properties.`,
+        message: `The PLY file's element ${quote(name)} (line ${line}) has no properties.`,
         remedy: 'Export the model again.',
       });
     }

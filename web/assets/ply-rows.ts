@@ -51,7 +51,7 @@ class TextRows implements PlyRows {
       return;
     }
     throw new HandlebodyError('file-truncated', {
-      message: `The PLY file ends before ${what} ${row}.`,
+      message: `The PLY file ends after line ${this.#line}, before ${what} ${row}.`,
       remedy: 'Download or export it again.',
       culprit: { kind: 'byte', index: this.#source.byteOf(this.#source.bytes.length) },
     });
@@ -164,7 +164,7 @@ class BinaryRows implements PlyRows {
 
   #truncated(): HandlebodyError {
     return new HandlebodyError('file-truncated', {
-      message: `The PLY file ends within ${this.#what} ${this.#row}.`,
+      message: `The PLY file ends within ${this.#what} ${this.#row}, at byte ${this.#byteOf(this.#view.byteLength)}.`,
       remedy: 'Download or export it again.',
       culprit: { kind: 'byte', index: this.#byteOf(this.#view.byteLength) },
     });

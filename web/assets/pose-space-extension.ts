@@ -47,7 +47,7 @@ export class PoseSpaceProperty extends ExtensionProperty<IPoseSpaceProperty> {
   }
 
   setDefinition(definition: object): this {
-    return this.set('definition', plainCopy(definition));
+    return this.set('definition', plainCopy(definition, this.extensionName));
   }
 }
 

@@ -55,31 +55,34 @@ export function parsePoseSpace(json: unknown, { targetCount }: { targetCount: nu
   if (space.version !== POSE_SPACE_VERSION) {
     throw new Fault('pose-version', [space.version, POSE_SPACE_VERSION]);
   }
-  if (!Array.isArray(space.dimensions) || space.dimensions.length === 0 || !Array.isArray(space.examples)) {
-    throw new Fault('pose-lists');
-  }
+  if (!Array.isArray(space.dimensions) || space.dimensions.length === 0) throw new Fault('pose-lists', ['dimensions']);
+  if (!Array.isArray(space.examples)) throw new Fault('pose-lists', ['examples']);
   const dimensions = space.dimensions.map((entry, i) => {
     const { name, min, max, scale } = asObject(entry) ?? {};
     if (typeof name !== 'string' || !isNumber(min) || !isNumber(max) || min >= max) {
-      throw new Fault('pose-dimension');
+      throw new Fault('pose-dimension', [`dimensions[${i}]`]);
     }
     if (scale === undefined) return { name, min, max };
-    if (!isNumber(scale) || scale <= 0) throw new Fault('pose-scale', [i, scale]);
+    if (!isNumber(scale) || scale <= 0) throw new Fault('pose-scale', [scale, `dimensions[${i}].scale`]);
     return { name, min, max, scale };
   });
-  if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw new Fault('pose-names');
+  if (new Set(dimensions.map((d) => d.name)).size < dimensions.length) throw new Fault('pose-names', ['dimensions']);
   const targets = space.examples.filter((entry) => asObject(entry)?.target !== undefined).length;
   if (targets * targetCount > MOST_WEIGHTS) throw new Fault('pose-many', [targets, targetCount, MOST_WEIGHTS]);
   const examples = space.examples.map((entry, index) => {
     const { name, at: place, weights, target } = asObject(entry) ?? {};
-    if (typeof name !== 'string') throw new Fault('pose-example', [index]);
-    const at = exampleNumbers(place, { index, name, what: 'place', expected: dimensions.length });
+    if (typeof name !== 'string') throw new Fault('pose-example', [`examples[${index}].name`]);
+    const at = exampleNumbers(place, { index, name, what: 'place', key: 'at', expected: dimensions.length });
     if (target === undefined) {
-      return { name, at, weights: exampleNumbers(weights, { index, name, what: 'row of weights', expected: targetCount }) };
+      return {
+        name,
+        at,
+        weights: exampleNumbers(weights, { index, name, what: 'row of weights', key: 'weights', expected: targetCount }),
+      };
     }
-    if (weights !== undefined) throw new Fault('pose-both', [index]);
+    if (weights !== undefined) throw new Fault('pose-both', [`examples[${index}]`]);
     if (!Number.isInteger(target) || (target as number) < 0 || (target as number) >= targetCount) {
-      throw new Fault('pose-target', [name, target, targetCount], { example: index });
+      throw new Fault('pose-target', [name, target, targetCount, `examples[${index}].target`], { example: index });
     }
     const row = Array.from({ length: targetCount }, (_, i) => (i === target ? 1 : 0));
     return { name, at, weights: row, target: target as number };
@@ -100,12 +103,16 @@ export function poseSpaceDefinition({ version, dimensions, examples }: PoseSpace
   };
 }
 
-function exampleNumbers(value: unknown, of: { index: number; name: string; what: string; expected: number }): number[] {
+function exampleNumbers(
+  value: unknown,
+  of: { index: number; name: string; what: string; key: string; expected: number },
+): number[] {
+  const where = `examples[${of.index}].${of.key}`;
   if (!Array.isArray(value) || value.length !== of.expected) {
-    throw new Fault('pose-count', [of.what, of.name, of.expected, value], { example: of.index });
+    throw new Fault('pose-count', [of.what, of.name, of.expected, value, where], { example: of.index });
   }
   if (!value.every(isNumber)) {
-    throw new Fault('pose-numbers', [of.what, of.name], { example: of.index });
+    throw new Fault('pose-numbers', [of.what, of.name, where], { example: of.index });
   }
   return [...value];
 }

@@ -1,4 +1,4 @@
-import type { Accessor, Document, Node, Primitive, Skin } from '@gltf-transform/core';
+import type { Accessor, Document, Node, Primitive, Root, Skin } from '@gltf-transform/core';
 import { options as readOptions } from '../../wasm/ts/arguments.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
@@ -66,7 +66,7 @@ export function readMesh(document: Document, choices: SceneChoices = {}): { mesh
     .reverse();
   for (let entry = stack.pop(); entry; entry = stack.pop()) {
     const { node, parent } = entry;
-    if (visited.has(node)) throw circle(node);
+    if (visited.has(node)) throw circle(node, document.getRoot().listNodes().indexOf(node));
     visited.add(node);
     const matrix = multiplyMatrices(parent, localMatrix(node));
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
@@ -227,7 +227,7 @@ function localMatrix(node: Node): number[] {
 function decode(accessor: Accessor, width: number): Float32Array {
   if (accessor.getElementSize() !== width) {
     throw new HandlebodyError('file-invalid', {
-      message: `An attribute of a primitive is ${accessor.getType()} and should be VEC${width}.`,
+      message: `${pathOf(accessor)} is ${accessor.getType()} and should be VEC${width}.`,
       remedy: 'Export the model again; a glTF validator says more.',
     });
   }
@@ -237,6 +237,18 @@ function decode(accessor: Accessor, width: number): Float32Array {
   return rows;
 }
 
+/** Where in the file's JSON an attribute is that these numbers are of. */
+function pathOf(accessor: Accessor): string {
+  const root = accessor.listParents().find((parent): parent is Root => parent.propertyType === 'Root');
+  for (const [i, mesh] of root?.listMeshes().entries() ?? [])
+    for (const [j, primitive] of mesh.listPrimitives().entries())
+      for (const [k, part] of [primitive, ...primitive.listTargets()].entries()) {
+        const name = part.listSemantics().find((each) => part.getAttribute(each) === accessor);
+        if (name) return `meshes[${i}].primitives[${j}].${k ? `targets[${k - 1}]` : 'attributes'}.${name}`;
+      }
+  return 'an attribute';
+}
+
 function noScene(): HandlebodyError {
   return new HandlebodyError('mesh-no-triangles', {
     message: 'The file has no scene, so that a viewer shows nothing of it.',
@@ -244,9 +256,9 @@ function noScene(): HandlebodyError {
   });
 }
 
-function circle(node: Node): HandlebodyError {
+function circle(node: Node, number: number): HandlebodyError {
   return new HandlebodyError('file-invalid', {
-    message: `The node "${node.getName()}" hangs below itself or below two nodes.`,
+    message: `nodes[${number}] ("${node.getName()}") hangs below itself or below two nodes.`,
     remedy: 'Give every node one parent.',
   });
 }

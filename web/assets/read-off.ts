@@ -159,7 +159,7 @@ class Rows {
 
   #truncated(what: string): HandlebodyError {
     return new HandlebodyError('file-truncated', {
-      message: `The OFF file ends before the end of ${what}.`,
+      message: `The OFF file ends after line ${this.line}, before the end of ${what}.`,
       remedy: 'Download or export it again.',
       culprit: { kind: 'byte', index: this.#source.byteOf(this.#source.bytes.length) },
     });
@@ -181,7 +181,7 @@ function readKeyword(rows: Rows, passed: PassedOver): string {
   const isBinary = rows.words[0]?.toUpperCase() === 'BINARY';
   if (!(isBinary || letters.includes('n'))) return letters;
   throw new HandlebodyError('file-unsupported', {
-    message: `The file is ${isBinary ? 'a binary OFF' : `of the kind ${letters}OFF, whose vertices have any number of coordinates`}; OFF, COFF, NOFF, STOFF and 4OFF are read, as text.`,
+    message: `Line ${rows.line} of the file says that it is ${isBinary ? 'a binary OFF' : `of the kind ${letters}OFF, whose vertices have any number of coordinates`}; OFF, COFF, NOFF, STOFF and 4OFF are read, as text.`,
     remedy: 'Export the model as a plain OFF, PLY or GLB.',
   });
 }

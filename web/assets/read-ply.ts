@@ -50,7 +50,7 @@ export function readPly(bytes: FileBytes, options: ReadOptions = {}): FileMesh {
   const [element, ...others] = header.elements.filter(({ name }) => name === 'vertex');
   if (!element || others.length > 0) {
     throw new HandlebodyError('file-invalid', {
-      message: `The PLY file has ${element ? others.length + 1 : 'no'} elements called "vertex" and should have one.`,
+      message: `The PLY file's header, of ${header.firstLine - 1} lines, has ${element ? others.length + 1 : 'no'} elements called "vertex" and should have one.`,
       remedy: 'Export the model again.',
     });
   }
@@ -95,12 +95,12 @@ interface Vertices {
   )[];
 }
 
-function allocateVertices({ count, properties }: PlyElement): Vertices {
+function allocateVertices({ count, line, properties }: PlyElement): Vertices {
   const scalars = new Set(properties.filter(({ lengthType }) => !lengthType).map(({ name }) => name));
   const missing = POSITION_NAMES.find((name) => !scalars.has(name));
   if (missing) {
     throw new HandlebodyError('file-invalid', {
-      message: `The vertices of the PLY file have no ${missing}.`,
+      message: `The vertices of the PLY file (line ${line}) have no ${missing}.`,
       remedy: 'Export the model again.',
     });
   }
@@ -216,11 +216,11 @@ function readStrips(rows: PlyRows, element: PlyElement, { corners, sizes, vertex
 }
 
 /** Goes through an element's rows and stops at the list of vertices in each: its length and type, for the caller to read. */
-function* vertexLists(rows: PlyRows, { name, count, properties }: PlyElement): Generator<[number, PlyType]> {
+function* vertexLists(rows: PlyRows, { name, count, line, properties }: PlyElement): Generator<[number, PlyType]> {
   const list = properties.find((property) => property.lengthType && FACE_LISTS.includes(property.name));
   if (!list && count > 0) {
     throw new HandlebodyError('file-invalid', {
-      message: `The element ${quote(name)} of the PLY file has no list called "vertex_indices".`,
+      message: `The element ${quote(name)} of the PLY file (line ${line}) has no list called "vertex_indices".`,
       remedy: 'Export the model again.',
     });
   }

@@ -159,7 +159,7 @@ function readText(source: TextSource, passed: PassedOver): Corners {
   }
   if (loop !== -1 || isOpen) {
     throw new HandlebodyError('file-truncated', {
-      message: `The STL file ends within a ${loop === -1 ? 'solid' : 'facet'}.`,
+      message: `The STL file ends within a ${loop === -1 ? 'solid' : 'facet'}, at byte ${source.byteOf(source.bytes.length)}.`,
       remedy: 'Download or export it again; where only its last line is missing, add "endsolid".',
       culprit: { kind: 'byte', index: source.byteOf(source.bytes.length) },
     });

@@ -93,11 +93,14 @@ export function parseBodyHeader(json: unknown): BodyHeader {
     version: BODY_VERSION as typeof BODY_VERSION,
     distance: body.distance as DistanceMethod,
     positionsHash: body.positionsHash as string,
-    normalization: { center: triple(normalization.center, 'center'), diagonal: positive(normalization.diagonal, 'diagonal') },
+    normalization: {
+      center: triple(normalization.center, 'normalization.center'),
+      diagonal: positive(normalization.diagonal, 'normalization.diagonal'),
+    },
     grid: {
-      origin: triple(grid.origin, 'origin'),
-      spacing: positive(grid.spacing, 'spacing'),
-      dimensions: triple(grid.dimensions, 'dimensions'),
+      origin: triple(grid.origin, 'grid.origin'),
+      spacing: positive(grid.spacing, 'grid.spacing'),
+      dimensions: triple(grid.dimensions, 'grid.dimensions'),
     },
     distanceScale: body.distanceScale as number,
     ...(body.handles !== undefined && { handles: namedHandles(body.handles) }),
@@ -127,7 +130,7 @@ function namedHandles(json: unknown): NamedHandle[] {
   return json.map((entry, i) => {
     const { name, vertex, at } = asObject(entry) ?? {};
     if (typeof name !== 'string') throw new Fault('handle-name', [i]);
-    if (vertex === undefined) return { name, at: triple(at, `place of handle ${i}`) };
+    if (vertex === undefined) return { name, at: triple(at, `handles[${i}].at`) };
     if (isNumber(vertex) && Number.isInteger(vertex) && vertex >= 0) return { name, vertex };
     throw new Fault('handle-vertex', [i, vertex]);
   });

@@ -60,7 +60,8 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
     return n as number;
   };
   const json = isObject(value) ? value : fail('json-object');
-  if (isDeep(json)) fail('nested', [MAX_DEPTH]);
+  const deep = Object.keys(json).find((key) => isDeep(json[key], 1));
+  if (deep !== undefined) fail('nested', [MAX_DEPTH, deep]);
   checkAsset(json, fail);
   const lists = Object.fromEntries([...LISTS, 'scenes', 'skins', 'textures'].map((name) => [name, list(json, name, fail)]));
   const count = (name: string) => lists[name]?.length ?? 0;
@@ -77,7 +78,7 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
   });
 
   const views = (lists.bufferViews ?? []).map((view, i) => {
-    const buffer = index(view.buffer, buffers.length, `the buffer of buffer view ${i}`);
+    const buffer = index(view.buffer, buffers.length, `bufferViews[${i}].buffer`);
     const [offset, length] = [view.byteOffset ?? 0, view.byteLength];
     if (!isIndex(offset) || !isIndex(length) || offset + length > (buffers[buffer] as number)) {
       return fail('view', [i], binStart || jsonStart);
@@ -89,7 +90,7 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
 
   let total = 0;
   const fits = (accessor: GltfJson, path: string, size: number) => {
-    const view = views[index(accessor.bufferView, views.length, `the buffer view of ${path}`)] as (typeof views)[number];
+    const view = views[index(accessor.bufferView, views.length, `${path}.bufferView`)] as (typeof views)[number];
     const [offset, n] = [accessor.byteOffset ?? 0, accessor.count as number];
     const end = isIndex(offset) ? offset + (n === 0 ? 0 : (view.stride ?? size) * (n - 1) + size) : Number.NaN;
     if (!(end <= view.length)) fail('past', [path], binStart + view.offset);
@@ -98,15 +99,15 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
     const bytes = COMPONENT_BYTES.get(accessor.componentType) ?? fail('component', [i]);
     const components = TYPE_SIZES.get(accessor.type) ?? fail('type', [i]);
     if (!isIndex(accessor.count)) fail('count', [i]);
-    if (accessor.bufferView !== undefined) fits(accessor, `accessor ${i}`, bytes * components);
+    if (accessor.bufferView !== undefined) fits(accessor, `accessors[${i}]`, bytes * components);
     if (accessor.sparse !== undefined) {
       const sparse = isObject(accessor.sparse) ? accessor.sparse : fail('sparse', [i]);
       const { indices, values } = sparse;
       if (!isObject(indices) || !isObject(values)) return fail('sparse', [i]);
-      index(sparse.count, (accessor.count as number) + 1, `the sparse count of accessor ${i}`);
+      index(sparse.count, (accessor.count as number) + 1, `accessors[${i}].sparse.count`);
       const indexBytes = COMPONENT_BYTES.get(indices.componentType) ?? fail('sparse-type', [i]);
-      fits({ ...indices, count: sparse.count }, `the sparse indices of accessor ${i}`, indexBytes);
-      fits({ ...values, count: sparse.count }, `the sparse values of accessor ${i}`, bytes * components);
+      fits({ ...indices, count: sparse.count }, `accessors[${i}].sparse.indices`, indexBytes);
+      fits({ ...values, count: sparse.count }, `accessors[${i}].sparse.values`, bytes * components);
     }
     total += (accessor.count as number) * components * 4;
   }
@@ -115,15 +116,16 @@ export function verifyGltf(value: unknown, options: CheckGltfOptions = {}): Gltf
 
   let primitives = 0;
   for (const [i, mesh] of (lists.meshes ?? []).entries()) {
-    for (const [j, primitive] of list(mesh, 'primitives', fail, `mesh ${i}`).entries()) {
+    for (const [j, primitive] of list(mesh, 'primitives', fail, `meshes[${i}].`).entries()) {
       if (++primitives > MOST) fail('many', ['primitives or more', primitives, MOST]);
-      const path = `primitive ${j} of mesh ${i}`;
-      if (primitive.mode !== undefined) index(primitive.mode, 7, `the mode of ${path}`);
-      if (primitive.indices !== undefined) index(primitive.indices, count('accessors'), `the indices of ${path}`);
-      if (primitive.material !== undefined) index(primitive.material, count('materials'), `the material of ${path}`);
-      for (const attributes of [primitive.attributes, ...list(primitive, 'targets', fail, path)]) {
+      const path = `meshes[${i}].primitives[${j}]`;
+      if (primitive.mode !== undefined) index(primitive.mode, 7, `${path}.mode`);
+      if (primitive.indices !== undefined) index(primitive.indices, count('accessors'), `${path}.indices`);
+      if (primitive.material !== undefined) index(primitive.material, count('materials'), `${path}.material`);
+      for (const [k, attributes] of [primitive.attributes, ...list(primitive, 'targets', fail, `${path}.`)].entries()) {
         if (!isObject(attributes)) return fail('attributes', [path]);
-        for (const [name, accessor] of Object.entries(attributes)) index(accessor, count('accessors'), `${name} of ${path}`);
+        const where = `${path}.${k ? `targets[${k - 1}]` : 'attributes'}`;
+        for (const [name, accessor] of Object.entries(attributes)) index(accessor, count('accessors'), `${where}.${name}`);
       }
     }
   }
@@ -146,10 +148,10 @@ function isIndex(value: unknown): value is number {
   return Number.isSafeInteger(value) && (value as number) >= 0;
 }
 
-function list(owner: GltfJson, name: string, fail: Fail, path = 'the file'): GltfJson[] {
+function list(owner: GltfJson, name: string, fail: Fail, path = ''): GltfJson[] {
   const value = owner[name];
   if (value === undefined) return [];
-  return Array.isArray(value) && value.every(isObject) ? value : fail('list', [name, path]);
+  return Array.isArray(value) && value.every(isObject) ? value : fail('list', [path + name]);
 }
 
 /** Bytes that a buffer really has: those of the binary chunk, or of a data URI. */

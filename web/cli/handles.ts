@@ -45,22 +45,25 @@ export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: 
 }
 
 function parseHandle(entry: unknown, index: number, vertexCount: number): { handle: Handle; target: number[] } {
-  const fail = (what: string, { code = 'handles-invalid', remedy }: { code?: ErrorCode; remedy?: string } = {}) =>
+  const fail = (
+    what: string,
+    { code = 'handles-invalid', remedy, key = '' }: { code?: ErrorCode; remedy?: string; key?: string } = {},
+  ) =>
     new HandlebodyError(code, {
-      message: `Handle ${index} ${what}.`,
+      message: `Handle ${index} ${what} (handles[${index}]${key && `.${key}`}).`,
       remedy: remedy ?? `A handle has "vertex" or "at", and "to"; it may have "rotation" and "scale".`,
       culprit: { kind: 'handle', index },
     });
   if (!isObject(entry)) throw fail('is no object');
   const stray = Object.keys(entry).find((key) => !KEYS.includes(key));
-  if (stray !== undefined) throw fail(`has an unknown key ${show(stray)}`);
+  if (stray !== undefined) throw fail(`has an unknown key ${show(stray)}`, { key: stray.slice(0, 40) });
 
   const numbers = (key: string, length: number, code: ErrorCode): number[] => {
     const value = entry[key];
     if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number'))
-      throw fail(`has no ${length} numbers in "${key}"`);
+      throw fail(`has no ${length} numbers in "${key}"`, { key });
     if (!value.every(Number.isFinite))
-      throw fail(`has a number in "${key}" that is too large`, { code, remedy: 'Give finite numbers.' });
+      throw fail(`has a number in "${key}" that is too large`, { code, key, remedy: 'Give finite numbers.' });
     return value as number[];
   };
   const place = (): { vertex: number } | { at: Vec3 } => {
@@ -70,15 +73,16 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
       );
     if ('at' in entry) return { at: numbers('at', 3, 'handle-not-finite') as unknown as Vec3 };
     const vertex = entry.vertex;
-    if (!Number.isInteger(vertex)) throw fail(`has the vertex ${show(vertex)}, which should be a whole number`);
+    if (!Number.isInteger(vertex)) throw fail(`has the vertex ${show(vertex)}, which should be a whole number`, { key: 'vertex' });
     if ((vertex as number) >= 0 && (vertex as number) < vertexCount) return { vertex: vertex as number };
     throw fail(`sits on vertex ${vertex}, and the model has ${vertexCount} vertices`, {
       code: 'handle-out-of-range',
+      key: 'vertex',
       remedy: `Use a vertex number from 0 to ${vertexCount - 1}.`,
     });
   };
   const where = place();
-  if (!('to' in entry)) throw fail('does not say where it goes: "to" is missing');
+  if (!('to' in entry)) throw fail('does not say where it goes: "to" is missing', { key: 'to' });
   const to = numbers('to', 3, 'target-not-finite');
   const rotation = 'rotation' in entry ? numbers('rotation', 4, 'target-not-finite') : [0, 0, 0, 1];
   const scale = 'scale' in entry ? numbers('scale', 3, 'target-not-finite') : [1, 1, 1];
@@ -87,7 +91,10 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
   const direction = rotation.map((x) => x / largest);
   const length = Math.hypot(...direction);
   if (largest === 0)
-    throw fail('has a rotation of no length', { remedy: 'Give a quaternion x, y, z, w; no rotation is [0, 0, 0, 1].' });
+    throw fail('has a rotation of no length', {
+      key: 'rotation',
+      remedy: 'Give a quaternion x, y, z, w; no rotation is [0, 0, 0, 1].',
+    });
   const turns = 'rotation' in entry || 'scale' in entry;
   return {
     handle: turns ? { ...where, kind: 'rotation' } : where,

@@ -20,8 +20,9 @@ export function readHandles(text: string): HandleOrder[] {
   return list.map((entry: unknown, index) => {
     const { vertex, at, to } = (entry ?? {}) as { vertex?: unknown; at?: unknown; to?: unknown };
     if (typeof vertex !== 'number' && !isTriple(at))
-      throw invalid(`Handle ${index} has neither a "vertex" number nor a place "at".`, index);
-    if (to !== undefined && !isTriple(to)) throw invalid(`Handle ${index}'s "to" is not three numbers.`, index);
+      throw invalid(`Handle ${index} has neither a "vertex" number nor a place "at" (handles[${index}]).`, index);
+    if (to !== undefined && !isTriple(to))
+      throw invalid(`Handle ${index}'s "to" is not three numbers (handles[${index}].to).`, index);
     return { handle: typeof vertex === 'number' ? { vertex } : { at: at as Vec3 }, to };
   });
 }
