@@ -130,6 +130,16 @@ describe('unknown extensions', () => {
     expect(new TextDecoder().decode(await writeGlb(document))).not.toContain('VENDOR_a');
   });
 
+  // glTF-Transform finds properties of Object.prototype by such names.
+  it.each(['constructor', 'toString', 'hasOwnProperty'])('are told to be lost where one is called "%s"', async (name) => {
+    const json = { ...everything(), extensionsUsed: [name], extensions: { [name]: {} } };
+    Object.assign(json.nodes[0] as object, { extensions: { [name]: { a: 1 } } });
+    const warnings: GltfWarning[] = [];
+    const document = await readGltf(bytesOf(json), { onWarning: (warning) => warnings.push(warning) });
+    expect(warnings).toMatchObject([{ code: 'extension-lost', message: expect.stringContaining(name) }]);
+    expect(readMesh(await readGlb(await writeGlb(document))).mesh.positions).toEqual(readMesh(document).mesh.positions);
+  });
+
   it('are refused where the file says that they have to be known', async () => {
     const json = { ...everything(), extensionsUsed: ['VENDOR_a'], extensionsRequired: ['VENDOR_a'] };
     await expect(readGltf(bytesOf(json))).rejects.toMatchObject({

@@ -209,6 +209,7 @@ export type Numbers = ArrayLike<number> | ArrayLike<ArrayLike<number> | Vector> 
 export function numbers(value: unknown, name: string, rule: Rule = {}): ArrayLike<number> {
   const list = asList(value);
   if (!list) throw refused(name, value, 'Give an array of numbers.', { code: 'invalid-shape' });
+  if (list.length === 0 && isTyped(list)) checkThere(list, name);
   if (typeof list[0] === 'object' && list[0] !== null) return flatten(list, name, rule);
   const { finite = true } = rule;
   if (finite || !isTyped(list))
@@ -218,6 +219,19 @@ export function numbers(value: unknown, name: string, rule: Rule = {}): ArrayLik
         throw notNumber(`${name}[${i}]`, x, i / (rule.width ?? 1), rule);
     }
   return list as ArrayLike<number>;
+}
+
+/** An array whose memory went to another thread says that it is empty, and cannot even be read as that. */
+function checkThere({ buffer }: TypedArray, name: string): void {
+  try {
+    new Uint8Array(buffer);
+  } catch (cause) {
+    throw new HandlebodyError('invalid-shape', {
+      message: `The memory of "${name}" was handed to another thread.`,
+      remedy: 'Give a copy, made before it is handed over.',
+      cause,
+    });
+  }
 }
 
 /** Rows of equal length as one array. */

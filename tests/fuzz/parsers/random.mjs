@@ -40,8 +40,8 @@ export class Random {
     return /** @type {T} */ (list[this.below(list.length)]);
   }
 
-  /** The same JSON with one or two of its values others, gone, or there twice. @template {object} T @param {T} json @returns {T} */
-  damage(json) {
+  /** The same JSON with one or two of its values others, gone, or there twice. @template {object} T @param {T} json @param {readonly unknown[]} [values] @returns {T} */
+  damage(json, values = VALUES) {
     const copy = structuredClone(json);
     for (let edits = 1 + this.below(2); edits > 0; edits--) {
       const places = /** @type {[Record<string, unknown>, string][]} */ ([]);
@@ -59,7 +59,7 @@ export class Random {
       const kind = this.below(5);
       if (kind === 0) delete owner[key];
       else if (kind === 1 && Array.isArray(owner)) owner.push(structuredClone(owner[Number(key)]));
-      else owner[key] = kind < 4 ? this.pick(NUMBERS) : structuredClone(this.pick(VALUES));
+      else owner[key] = kind < 4 ? this.pick(NUMBERS) : structuredClone(this.pick(values));
     }
     return copy;
   }

@@ -1,10 +1,15 @@
-/** What is fuzzed: for each reader made files that are sound, how it reads, what its result must be, and the files behind it. */
-import * as assets from '../../../dist/web/assets/index.js';
-import { parseHandles } from '../../../dist/web/cli/handles.js';
+/**
+ * What is fuzzed: for each reader made files that are sound, how it reads, what its result must be, and the files behind it. What is `whole` is
+ * damaged where it is made, and not once more as bytes. What reads `false` has reached nothing.
+ */
 import { glb } from '../../bench/hostile/kinds.mjs';
+import { bodyTarget } from './body.mjs';
+import { optionsTarget } from './options.mjs';
 import { Random } from './random.mjs';
 
-/** @typedef {{ make: (random: Random) => Uint8Array, read: (bytes: Uint8Array) => unknown, files: RegExp, json?: boolean }} Target */
+/** @typedef {import('../../../web/assets/index.ts')} Assets */
+/** @typedef {{ assets: Assets, parseHandles: typeof import('../../../web/cli/handles.ts').parseHandles, load: typeof import('../../../wasm/ts/index.ts').load }} Library */
+/** @typedef {{ make: (random: Random) => Uint8Array, read: (bytes: Uint8Array) => unknown, files: RegExp, whole?: boolean }} Target */
 
 const text = (/** @type {string} */ value) => new TextEncoder().encode(value);
 
@@ -166,7 +171,7 @@ function gltfParts(random) {
   return { json, bin };
 }
 
-/** @param {import('../../../dist/web/assets/index.js').FileMesh} mesh */
+/** @param {ReturnType<Assets['readObj']>} mesh */
 function checkMesh({ positions, triangles, normals, uvs }) {
   const count = positions.length / 3;
   for (const numbers of [positions, normals ?? [], uvs ?? []])
@@ -175,8 +180,8 @@ function checkMesh({ positions, triangles, normals, uvs }) {
   if (count === 0) throw new Error('a mesh without vertices');
 }
 
-/** @param {Awaited<ReturnType<typeof assets.readGlb>>} document */
-async function look(document) {
+/** @param {Assets} assets @param {Awaited<ReturnType<Assets['readGlb']>>} document */
+async function look(assets, document) {
   const { mesh } = assets.readMesh(document, { morphs: 'present', onWarning: () => {} });
   const count = mesh.positions.length / 3;
   for (const v of mesh.triangles) if (!(v < count)) throw new Error(`a corner ${v} of ${count}`);
@@ -202,44 +207,49 @@ function handles(random) {
   );
 }
 
-const TEXT = 'text-|number-list|file-|to-bytes|join-vertices|area-normals';
-/** @type {Record<string, Target>} */
-export const TARGETS = {
-  obj: { make: obj, read: (bytes) => checkMesh(assets.readObj(bytes)), files: new RegExp(`assets/(read-obj|obj-|${TEXT})`) },
-  ply: { make: ply, read: (bytes) => checkMesh(assets.readPly(bytes)), files: new RegExp(`assets/(read-ply|ply-|${TEXT})`) },
-  stl: { make: stl, read: (bytes) => checkMesh(assets.readStl(bytes)), files: new RegExp(`assets/(read-stl|${TEXT})`) },
-  off: { make: off, read: (bytes) => checkMesh(assets.readOff(bytes)), files: new RegExp(`assets/(read-off|${TEXT})`) },
-  glb: {
-    make: (random) => {
-      const { json, bin } = gltfParts(random);
-      return glb(random.below(4) ? random.damage(json) : json, bin);
+const TEXT = 'text-|number-list|file-|to-bytes|join-vertices|area-normals|coarse-floats|cut-polygons|ear-clipping|crossing-edges';
+const STL = TEXT.replace(/.cut-.*/, '');
+/** The targets, of the library as it was built or of its sources. @param {Library} library @returns {Promise<Record<string, Target>>} */
+export async function targetsOf({ assets, parseHandles, load }) {
+  return {
+    obj: { make: obj, read: (bytes) => checkMesh(assets.readObj(bytes)), files: new RegExp(`assets/(read-obj|obj-|${TEXT})`) },
+    ply: { make: ply, read: (bytes) => checkMesh(assets.readPly(bytes)), files: new RegExp(`assets/(read-ply|ply-|${TEXT})`) },
+    stl: { make: stl, read: (bytes) => checkMesh(assets.readStl(bytes)), files: new RegExp(`assets/(read-stl|${STL})`) },
+    off: { make: off, read: (bytes) => checkMesh(assets.readOff(bytes)), files: new RegExp(`assets/(read-off|${TEXT})`) },
+    glb: {
+      make: (random) => {
+        const { json, bin } = gltfParts(random);
+        return glb(random.below(4) ? random.damage(json) : json, bin);
+      },
+      read: async (bytes) => look(assets, await assets.readGlb(bytes)),
+      files:
+        /assets\/(glb|open-gltf|verify-|check-|read-mesh|join-scene|concatenate|pose-space|to-document|kept-extension|drawn-corners)/,
     },
-    read: async (bytes) => look(await assets.readGlb(bytes)),
-    files:
-      /assets\/(glb|open-gltf|verify-|check-|read-mesh|join-scene|concatenate|pose-space|to-document|kept-extension|drawn-corners)/,
-  },
-  gltf: {
-    make: (random) => {
-      const { json, bin } = gltfParts(random);
-      const whole = {
-        asset: { version: '2.0' },
-        ...json,
-        buffers: [{ byteLength: bin.length, uri: `data:;base64,${bin.toString('base64')}` }],
-      };
-      return text(JSON.stringify(random.below(4) ? random.damage(whole) : whole));
+    gltf: {
+      make: (random) => {
+        const { json, bin } = gltfParts(random);
+        const whole = {
+          asset: { version: '2.0' },
+          ...json,
+          buffers: [{ byteLength: bin.length, uri: `data:;base64,${bin.toString('base64')}` }],
+        };
+        return text(JSON.stringify(random.below(4) ? random.damage(whole) : whole));
+      },
+      read: async (bytes) => look(assets, await assets.readGltf(bytes, { resource: async () => undefined })),
+      files: /assets\/(open-|plain-gltf|fetch-resources|data-uri|verify-|read-mesh|join-scene|concatenate|pose-space|to-document)/,
     },
-    read: async (bytes) => look(await assets.readGltf(bytes, { resource: async () => undefined })),
-    files: /assets\/(open-|plain-gltf|fetch-resources|data-uri|verify-|read-mesh|join-scene|concatenate|pose-space|to-document)/,
-  },
-  handles: {
-    make: (random) => {
-      const made = handles(random);
-      return random.below(4) ? text(JSON.stringify(random.damage(JSON.parse(new TextDecoder().decode(made))))) : made;
+    body: await bodyTarget(assets, await load()),
+    handles: {
+      make: (random) => {
+        const made = handles(random);
+        return random.below(4) ? text(JSON.stringify(random.damage(JSON.parse(new TextDecoder().decode(made))))) : made;
+      },
+      read: (bytes) => {
+        const { targets } = parseHandles(bytes, { vertexCount: 9 });
+        for (const x of targets) if (!Number.isFinite(x)) throw new Error(`a target of ${x}`);
+      },
+      files: /cli\/handles/,
     },
-    read: (bytes) => {
-      const { targets } = parseHandles(bytes, { vertexCount: 9 });
-      for (const x of targets) if (!Number.isFinite(x)) throw new Error(`a target of ${x}`);
-    },
-    files: /cli\/handles/,
-  },
-};
+    options: await optionsTarget(load),
+  };
+}
