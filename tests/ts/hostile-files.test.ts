@@ -1,7 +1,8 @@
 /** Files that ask for more than their bytes justify are refused by name, before anything is made as large as that. */
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { load } from '../../wasm/ts/index.ts';
+import { isDeep, isDeepText, MAX_DEPTH } from '../../web/assets/gltf-json.ts';
 import {
   createIo,
   HANDLEBODY_EXTENSIONS,
@@ -19,6 +20,7 @@ import { joinVertices } from '../../web/assets/join-vertices.ts';
 import { parseDecimal } from '../../web/assets/text-lines.ts';
 import { parseHandles } from '../../web/cli/handles.ts';
 import { KINDS, triangle } from '../bench/hostile/kinds.mjs';
+import { random } from './support/scattered.ts';
 
 async function endOf(work: () => unknown): Promise<HandlebodyError | undefined> {
   try {
@@ -184,6 +186,34 @@ describe('a file that stands for more than it has', () => {
       code: 'file-invalid',
       message: expect.stringMatching(/512 deep/),
     });
+  });
+});
+
+describe('JSON that nests to no end', () => {
+  const WORDS = ['[', ']', '{"a":', '"', '\\', '\\"', '\\\\', 'x'];
+  it.each(Array.from({ length: 40 }, (_, i) => i + 1))('is told as text as it is once parsed (seed %i)', (seed) => {
+    const { number } = random(seed);
+    const pick = (n: number) => Math.floor(((number() + 1) / 2) * n) % n;
+    const word = () => Array.from({ length: pick(5) }, () => WORDS[pick(WORDS.length)]).join('');
+    let inner: unknown = word();
+    for (let level = 0; level < MAX_DEPTH - 3 + pick(8); level++) {
+      const beside = [word(), [word()], { [word()]: {} }][pick(3)];
+      inner = pick(2) ? [beside, inner, word()] : { [word()]: beside, [`in${word()}`]: inner };
+    }
+    expect(isDeepText(JSON.stringify(inner))).toBe(isDeep(inner));
+  });
+
+  it.each([`"${'['.repeat(600)}"`, `"\\\\",${'['.repeat(3)}`, '"', '"\\"', '', ']'.repeat(600)])('%s does not', (text) =>
+    expect(isDeepText(text)).toBe(false),
+  );
+
+  it.each(['glb: lists in lists', 'gltf: brackets', 'handles: brackets'])('%s: is refused before it is parsed', async (kind) => {
+    const parse = vi.spyOn(JSON, 'parse');
+    const { make, reader } = KINDS[kind] as (typeof KINDS)[string];
+    const error = await endOf(() => READERS[reader]?.(make(20_000)));
+    expect(parse).not.toHaveBeenCalled();
+    parse.mockRestore();
+    expect(error?.message).toMatch(/nested more than 512 deep/);
   });
 });
 

@@ -1,5 +1,6 @@
 /** The container of a GLB: header and chunks. Every byte that is read was checked to be there. */
 import { Fault } from './fault.ts';
+import { isDeepText, MAX_DEPTH } from './gltf-json.ts';
 
 const MAGIC = 0x46546c67; // "glTF"
 const JSON_CHUNK = 0x4e4f534a;
@@ -58,8 +59,10 @@ export function splitGlb(bytes: Uint8Array): GlbChunks {
 function parseJson(chunk: Uint8Array): { json: unknown; text: string } {
   try {
     const text = new TextDecoder('utf-8', { fatal: true }).decode(chunk);
+    if (isDeepText(text)) throw new Fault('nested', [MAX_DEPTH]);
     return { json: JSON.parse(text), text };
   } catch (cause) {
+    if (cause instanceof Fault) throw cause;
     const position = Number(/position (\d+)/.exec(String(cause))?.[1] ?? 0);
     throw new Fault('glb-text', [], { byte: 20 + position, cause });
   }

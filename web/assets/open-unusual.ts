@@ -2,8 +2,9 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { GlbParts } from './check-glb.ts';
 import { decodeText } from './decode-text.ts';
-import { inWords } from './fault.ts';
+import { Fault, inWords } from './fault.ts';
 import { isGlb, splitGlb } from './glb-chunks.ts';
+import { isDeepText, MAX_DEPTH } from './gltf-json.ts';
 import type { GltfReadOptions } from './gltf-warnings.ts';
 import { refuseOther } from './look-alikes.ts';
 import { plainGltf } from './plain-gltf.ts';
@@ -13,7 +14,7 @@ export { packGlb } from './pack-glb.ts';
 /** Throws what `checkGlb` and `plainGltf` throw. */
 export async function openUnusual(bytes: Uint8Array, options?: GltfReadOptions): Promise<GlbParts> {
   if (isGlb(bytes)) return plainGltf(await inWords(() => splitGlb(bytes)), options);
-  if (looksLikeGltf(bytes)) return plainGltf({ json: parseGltf(bytes) }, options);
+  if (looksLikeGltf(bytes)) return plainGltf({ json: await inWords(() => parseGltf(bytes)) }, options);
   throw refuseOther(bytes);
 }
 
@@ -24,6 +25,7 @@ export function looksLikeGltf(bytes: Uint8Array): boolean {
 
 function parseGltf(bytes: Uint8Array): unknown {
   const text = decodeText(bytes);
+  if (isDeepText(text)) throw new Fault('nested', [MAX_DEPTH]);
   try {
     return JSON.parse(text);
   } catch (cause) {

@@ -9,7 +9,7 @@
 import { type ErrorCode, HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Handle, Vec3 } from '../../wasm/ts/types.ts';
 import { decodeText } from '../assets/decode-text.ts';
-import { show } from '../assets/gltf-json.ts';
+import { isDeepText, MAX_DEPTH, show } from '../assets/gltf-json.ts';
 
 interface HandlesFile {
   readonly handles: readonly Handle[];
@@ -103,8 +103,10 @@ function parseHandle(entry: unknown, index: number, vertexCount: number): { hand
 }
 
 function parseJson(bytes: Uint8Array): unknown {
+  const text = decodeText(bytes);
+  if (isDeepText(text)) throw invalid(`has lists or objects nested more than ${MAX_DEPTH} deep.`, TOP);
   try {
-    return JSON.parse(decodeText(bytes));
+    return JSON.parse(text);
   } catch (cause) {
     throw new HandlebodyError('file-invalid', {
       message: `It is no JSON: ${cause instanceof Error ? cause.message : String(cause)}.`,
