@@ -19,7 +19,8 @@ import {
 import { joinVertices } from '../../web/assets/join-vertices.ts';
 import { parseDecimal } from '../../web/assets/text-lines.ts';
 import { parseHandles } from '../../web/cli/handles.ts';
-import { KINDS, triangle } from '../bench/hostile/kinds.mjs';
+import { KINDS } from '../bench/hostile/kinds.mjs';
+import { triangle } from '../bench/hostile/make.mjs';
 import { random } from './support/scattered.ts';
 
 async function endOf(work: () => unknown): Promise<HandlebodyError | undefined> {

@@ -1,5 +1,5 @@
 /** A baked body in a GLB, damaged: the extension's header, its accessors and the packed bytes. */
-import { glb } from '../../bench/hostile/kinds.mjs';
+import { glb } from '../../bench/hostile/make.mjs';
 
 const mesh = {
   positions: Float32Array.of(0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2),

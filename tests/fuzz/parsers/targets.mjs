@@ -2,7 +2,7 @@
  * What is fuzzed: for each reader made files that are sound, how it reads, what its result must be, and the files behind it. What is `whole` is
  * damaged where it is made, and not once more as bytes. What reads `false` has reached nothing.
  */
-import { glb } from '../../bench/hostile/kinds.mjs';
+import { glb } from '../../bench/hostile/make.mjs';
 import { bodyTarget } from './body.mjs';
 import { optionsTarget } from './options.mjs';
 import { Random } from './random.mjs';
