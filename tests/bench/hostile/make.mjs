@@ -2,7 +2,7 @@
 
 /** @typedef {{ reader: string, make: (bytes: number) => Uint8Array }} Kind */
 
-export const encoder = new TextEncoder();
+const encoder = new TextEncoder();
 export const text = (/** @type {string} */ value) => encoder.encode(value);
 export const repeat = (/** @type {string} */ unit, /** @type {number} */ bytes) =>
   unit.repeat(Math.max(Math.floor(bytes / unit.length), 1));

@@ -331,7 +331,7 @@ export const CALLS = {
     run: ({ hb, body, options, handles, solve, target }) =>
       used(hb.irbf(body, options), (irbf) => {
         irbf.setHandles(handles);
-        irbf.targets[1] = target;
+        if (typeof target === 'number') irbf.targets[1] = target;
         irbf.solve(solve);
         const out = new Float32Array(3 * irbf.vertexCount);
         const turned = new Float32Array(out.length);
