@@ -1,8 +1,9 @@
 // `npm run fuzz`: looks for inputs of the C interface that crash, hang, or break what its header promises, by Clang's libFuzzer and
-// sanitizers. tests/fuzz holds the targets, one for each group of functions; a crash is minimized into tests/repro/fuzz.
+// sanitizers. tests/fuzz holds the targets, one for each group of functions; a crash is minimized into tests/repro/fuzz. What is written in
+// TypeScript, readers of files and of options, is fuzzed by tests/fuzz/parsers, into tests/repro/parsers.
 //
 //   npm run fuzz                              all targets, a minute each
-//   npm run fuzz -- irbf bake --seconds 600   these two, ten minutes each; or --runs 200000
+//   npm run fuzz -- irbf glb --seconds 600    these two, ten minutes each; or --runs 200000
 //   npm run fuzz -- --check                   what CI does: all that is committed once, natively and in wasm, then some seconds of fuzzing
 //   npm run fuzz -- --coverage                lines of the files behind each target that its inputs reach
 //   npm run fuzz -- --seeds                   writes the seeds that are committed, from what fuzzing has found so far
@@ -12,9 +13,11 @@ import { buildFuzz, buildReplays, fuzz, fuzzTargets, packSeeds, replay, unfuzzed
 import { coverTarget } from './lib/fuzz-coverage.mjs';
 import { FOR_EMSCRIPTEN } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
-import { runMain } from './lib/run.mjs';
+import { run, runMain } from './lib/run.mjs';
 
 const CHECK_SECONDS = 4;
+const CHECK_RUNS = 3000;
+const READERS = ['obj', 'ply', 'stl', 'off', 'glb', 'gltf', 'body', 'handles', 'options'];
 
 /** @param {string[]} args */
 function readArguments(args) {
@@ -51,13 +54,28 @@ function checkCalls() {
   return missing.length === 0;
 }
 
+/** Fuzzes readers, each for so long; whether nothing failed. @param {string[]} readers @param {{ seconds?: number | undefined, runs?: number | undefined }} limits */
+async function fuzzReaders(readers, { seconds, runs }) {
+  if (readers.length === 0) return true;
+  const program = at('tests', 'fuzz', 'parsers', 'main.mjs');
+  const limit = runs ? ['--runs', `${runs}`] : ['--minutes', `${(seconds ?? 60) / 60}`];
+  if ((await run(process.execPath, [at('scripts', 'build.mjs'), 'library'])) !== 0) return false;
+  return (await run(process.execPath, [program, ...readers, ...limit])) === 0;
+}
+
 await runMain(async () => {
   const { named, seconds, runs, modes } = readArguments(process.argv.slice(2));
   const all = fuzzTargets();
-  const unknown = named.find((name) => !all.some((target) => target.name === name));
-  if (unknown) throw new Error(`There is no target called "${unknown}": use ${all.map((target) => target.name).join(', ')}.`);
-  const targets = named.length > 0 ? all.filter((target) => named.includes(target.name)) : all;
-  let sound = checkCalls();
+  const names = [...all.map(({ name }) => name), ...READERS];
+  const unknown = named.find((name) => !names.includes(name));
+  if (unknown) throw new Error(`There is no target called "${unknown}": use ${names.join(', ')}.`);
+  const isWanted = (/** @type {string} */ name) => named.length === 0 || named.includes(name);
+  const targets = all.filter(({ name }) => isWanted(name));
+  const readers = modes.has('--seeds') ? [] : READERS.filter(isWanted);
+  const isBrief = modes.has('--check') || modes.has('--coverage');
+  let sound = await fuzzReaders(readers, isBrief ? { runs: CHECK_RUNS } : { seconds, runs });
+  if (targets.length === 0) return sound ? 0 : 1;
+  sound = checkCalls() && sound;
 
   if (modes.has('--coverage')) {
     const folder = await buildFuzz('coverage', targets);

@@ -2,6 +2,10 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { fuzzTargets, unfuzzed } from '../../scripts/lib/fuzz.mjs';
 import { at } from '../../scripts/lib/paths.mjs';
+import { load } from '../../wasm/ts/index.ts';
+import * as assets from '../../web/assets/index.ts';
+import { parseHandles } from '../../web/cli/handles.ts';
+import { targetsOf } from '../fuzz/parsers/targets.mjs';
 
 const header = readFileSync(at('wasm', 'abi', 'handlebody.h'), 'utf8');
 const sources = readdirSync(at('tests', 'fuzz'))
@@ -26,4 +30,11 @@ describe('fuzzing the C interface', () => {
     expect(behind.filter((file) => !existsSync(at('wasm', file)))).toEqual([]);
     expect(readdirSync(target.unpack()).length).toBeGreaterThan(10);
   });
+});
+
+it('npm run fuzz knows the targets of readers', async () => {
+  const readers = /READERS = \[(.*)\]/.exec(readFileSync(at('scripts', 'fuzz.mjs'), 'utf8'))?.[1] ?? '';
+  expect(readers.split(', ').map((name) => name.slice(1, -1))).toEqual(
+    Object.keys(await targetsOf({ assets, parseHandles, load })),
+  );
 });
