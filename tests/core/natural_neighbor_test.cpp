@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace handlebody;
@@ -50,7 +51,7 @@ Matrix circle(Index count) {
 NaturalNeighbor cardinal(const Matrix& points, OutsideHull outside = OutsideHull::nearest) {
   auto made = NaturalNeighbor::create(points, Matrix::Identity(points.rows(), points.rows()), outside);
   REQUIRE(made);
-  return *made;
+  return std::move(*made);
 }
 
 Vector weights_at(NaturalNeighbor& f, const Point& query) {
