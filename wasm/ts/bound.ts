@@ -24,9 +24,9 @@ function prepare(prototype: object): void {
   prepared.add(prototype);
   for (const key of Reflect.ownKeys(prototype)) {
     if (key === 'constructor') continue;
-    const { get, value, ...rest } = Object.getOwnPropertyDescriptor(prototype, key) as PropertyDescriptor;
+    const { get, set, value, ...rest } = Object.getOwnPropertyDescriptor(prototype, key) as PropertyDescriptor;
     const name = String(key);
-    if (get) Object.defineProperty(prototype, key, { ...rest, get: onRaw(get, name) });
+    if (get) Object.defineProperty(prototype, key, { ...rest, get: onRaw(get, name), ...(set && { set: onRaw(set, name) }) });
     else if (typeof value === 'function') Object.defineProperty(prototype, key, { ...rest, value: onRaw(value, name) });
   }
 }

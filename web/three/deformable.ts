@@ -1,4 +1,5 @@
 import type { Intersection, Object3D, Raycaster } from 'three';
+import { bound } from '../../wasm/ts/bound.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, Irbf } from '../../wasm/ts/runtime.ts';
@@ -24,7 +25,7 @@ import type { SurfacePick } from './surface-pick.ts';
  * ```
  */
 export function deformable(object: Object3D, irbf: Irbf): Deformable {
-  return new Deformable(object, irbf);
+  return bound(new Deformable(object, irbf));
 }
 
 /**

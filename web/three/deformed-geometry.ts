@@ -1,5 +1,6 @@
 import type { Intersection, Raycaster } from 'three';
 import { list, row } from '../../wasm/ts/arguments.ts';
+import { bound } from '../../wasm/ts/bound.ts';
 import { aim, object3D } from './given.ts';
 import { standFor } from './instances-as-mesh.ts';
 import { LiveGeometry } from './live-geometry.ts';
@@ -35,6 +36,7 @@ export class DeformedGeometry {
     );
     this.#live = new LiveGeometry(parts, { tangentsOf: TurnedTangents.of, Morphs: LiveMorphs, standFor });
     this.vertexCount = this.#live.vertexCount;
+    bound(this);
   }
 
   /**

@@ -18,6 +18,7 @@ import {
   object as record,
   whole,
 } from '../../wasm/ts/arguments.ts';
+import { bound } from '../../wasm/ts/bound.ts';
 import type { BodyData, Handle, HandlebodyRuntime } from '../../wasm/ts/runtime.ts';
 import { bakedFrom } from './deformable.ts';
 import { DeformedGeometry } from './deformed-geometry.ts';
@@ -111,12 +112,14 @@ export function draggable(object: Object3D, body: BodyData, options: DraggableOp
   const { mesh } = record(body, 'body', BAKED);
   record(mesh, 'body.mesh', BAKED);
   readOptions(options, READERS);
-  return new Draggable(object, body, {
-    ...options,
-    makeOverlay: (overlay) => new HandleOverlay(overlay),
-    makeGeometry: (parts) => new DeformedGeometry(parts),
-    read: () => bakedFrom(object, body),
-  });
+  return bound(
+    new Draggable(object, body, {
+      ...options,
+      makeOverlay: (overlay) => new HandleOverlay(overlay),
+      makeGeometry: (parts) => new DeformedGeometry(parts),
+      read: () => bakedFrom(object, body),
+    }),
+  );
 }
 
 /**

@@ -11,6 +11,7 @@ import {
   row,
   text as words,
 } from '../../wasm/ts/arguments.ts';
+import { bound } from '../../wasm/ts/bound.ts';
 import { draggable, type Grip, letGo } from '../ui/drag.ts';
 import { putHandle } from '../ui/put-handle.ts';
 import { camera, container, numberOf } from './given.ts';
@@ -98,6 +99,7 @@ export class BareHandles {
     const read = readOptions(options, HANDLES_READERS);
     this.#options = read as BareHandlesOptions;
     this.#step = read.step ?? 0.02;
+    bound(this);
   }
 
   /** World units that an arrow key moves a handle by. */

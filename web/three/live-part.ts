@@ -31,21 +31,25 @@ export interface PartMaking {
   readonly Morphs?: typeof LiveMorphs | undefined;
 }
 
-/** Geometries that deformations made, and what their meshes had before: deformations may end in another order than they began. */
-const before = new WeakMap<BufferGeometry, BufferGeometry>();
-const ended = new WeakSet<BufferGeometry>();
+/**
+ * Geometries that deformations made say what their meshes had before: deformations may end in another order than they began. They say it
+ * themselves, since a mesh behind a framework's proxy gives its geometry behind another one, which no WeakMap knows.
+ */
+const BEFORE = Symbol('before');
+const ENDED = Symbol('ended');
+type Lent = BufferGeometry & { [BEFORE]?: BufferGeometry; [ENDED]?: true };
 
 /** Gives a mesh the geometry that shows its deformation. */
 export function beginPart(part: ObjectPart, inverse: Sixteen | undefined, { tangentsOf, Morphs }: PartMaking): LivePart {
   const { mesh, weights } = part;
   const found = mesh.geometry;
-  let original = found;
-  for (let older = before.get(original); older; older = before.get(original)) original = older;
-  const geometry = livingCopy(original, mesh.material);
+  let original: Lent = found;
+  for (let older = original[BEFORE]; older; older = original[BEFORE]) original = older;
+  const geometry: Lent = livingCopy(original, mesh.material);
   Morphs?.makeRelative(geometry, original);
   const tangents = tangentsOf?.(original);
   if (tangents) geometry.setAttribute('tangent', tangents.attribute);
-  before.set(geometry, found);
+  geometry[BEFORE] = found;
   mesh.geometry = geometry;
   return {
     ...{ ...part, original, found, geometry, tangents, inverse },
@@ -58,10 +62,10 @@ export function beginPart(part: ObjectPart, inverse: Sixteen | undefined, { tang
 
 /** The mesh has again what it had, unless it was given something else since. */
 export function endPart({ mesh, geometry, found }: LivePart): void {
-  ended.add(geometry);
-  if (mesh.geometry === geometry) {
-    let back = found;
-    while (ended.has(back)) back = before.get(back) ?? back;
+  (geometry as Lent)[ENDED] = true;
+  if (mesh.geometry.uuid === geometry.uuid) {
+    let back: Lent = found;
+    while (back[ENDED]) back = back[BEFORE] as Lent;
     mesh.geometry = back;
     if (isSkinned(mesh)) forgetBounds(mesh);
   }

@@ -1,5 +1,6 @@
 import type { Mesh, Object3D } from 'three';
 import { list, object as record } from '../../wasm/ts/arguments.ts';
+import { bound } from '../../wasm/ts/bound.ts';
 import type { HandlebodyRuntime, PoseSpace } from '../../wasm/ts/runtime.ts';
 import { object3D, solver } from './given.ts';
 import { type Range, rangesOf, setInfluences } from './influences.ts';
@@ -32,7 +33,7 @@ export function poseDriver(hb: HandlebodyRuntime, space: DrivenSpace, object?: O
   const { meshes } = record(space, 'space', 'Give one of handlebodyData(gltf).poseSpaces.');
   list(meshes, 'space.meshes', 'meshes', object3D as (mesh: unknown, name: string) => unknown);
   if (object !== undefined) object3D(object, 'object');
-  return new PoseDriver(hb, space, object);
+  return bound(new PoseDriver(hb, space, object));
 }
 
 /**
