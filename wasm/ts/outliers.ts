@@ -73,6 +73,8 @@ export function findOutliers(heap: Heap, given: OutlierOptions): OutlierReport {
       words[layout.outliers / 4] = outliers;
       words[layout.heights / 4] = heights;
       heap.check((e) => e.hb_find_outliers(pointsAt, valuesAt, count, dimension, outputs, at, search));
+      // A smoothing that is tried, and fails by a kernel, is passed over by the solver.
+      heap.kernels.throwFailure();
       const length = heap.u32(search + layout.outlier_count, 1)[0] as number;
       return {
         method,

@@ -12,7 +12,7 @@ import {
   type WriterContext,
 } from '@gltf-transform/core';
 import { asObject, type GltfJson } from './gltf-json.ts';
-import type { GltfReadOptions } from './gltf-warnings.ts';
+import type { GltfWarning } from './gltf-warnings.ts';
 import { plainCopy } from './plain-copy.ts';
 
 /** Names of things that glTF numbers, as they occur in the keys of extensions. */
@@ -118,14 +118,10 @@ function keptExtension(name: string): typeof Extension {
 }
 
 /** Extensions that keep the unknown ones as far as that goes; what cannot be kept is told. */
-export function keepUnknown(
-  json: GltfJson,
-  names: readonly string[],
-  onWarning: GltfReadOptions['onWarning'],
-): (typeof Extension)[] {
+export function keepUnknown(json: GltfJson, names: readonly string[], tell: (warning: GltfWarning) => void): (typeof Extension)[] {
   const { lost, kept } = sortUnknown(json, names);
   if (lost.length > 0) {
-    onWarning?.({
+    tell({
       code: 'extension-lost',
       message: `What the model says in ${lost.slice(0, NAMED).join(', ')}${lost.length > NAMED ? ` and ${lost.length - NAMED} more extensions` : ''} is not known here and gets lost.`,
       remedy: 'Apply such extensions after baking, if they leave the vertices alone.',

@@ -4,7 +4,7 @@ import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { GlbParts } from './check-glb.ts';
 import { checkRequiredExtensions } from './check-gltf.ts';
 import type { GltfJson } from './gltf-json.ts';
-import { decompressed, type GltfReadOptions } from './gltf-warnings.ts';
+import { decompressed, type GltfReadOptions, type GltfWarning } from './gltf-warnings.ts';
 import { createIo, type IoOptions } from './io.ts';
 import { keepUnknown } from './kept-extension.ts';
 
@@ -27,16 +27,18 @@ export async function toDocument(parts: GlbParts, options: ReadGltfOptions): Pro
   // Optional means that the data is there plain, too; some writers leave it out.
   if (!draco && needsDraco(parts)) checkRequiredExtensions({ extensionsRequired: [DRACO] }, known);
   const unknown = used.filter((name) => !known.includes(name));
+  // Told in the end: what a listener throws is nothing that the file has done.
+  const warnings: GltfWarning[] = [];
+  let document: Document;
   try {
-    const kept = keepUnknown(parts.json, unknown, onWarning);
+    const kept = keepUnknown(parts.json, unknown, (warning) => warnings.push(warning));
     const io = createIo({ extensions: [...extensions, ...kept] });
     if (draco) io.registerDependencies({ 'draco3d.decoder': draco });
-    const document = await io.readJSON(withResources(parts));
+    document = await io.readJSON(withResources(parts));
     if (draco && used.includes(DRACO)) {
       document.disposeExtension(DRACO);
-      onWarning?.(decompressed('Draco'));
+      warnings.push(decompressed('Draco'));
     }
-    return document;
   } catch (cause) {
     if (cause instanceof HandlebodyError) throw cause;
     throw new HandlebodyError('file-invalid', {
@@ -46,6 +48,8 @@ export async function toDocument(parts: GlbParts, options: ReadGltfOptions): Pro
       cause,
     });
   }
+  for (const warning of warnings) onWarning?.(warning);
+  return document;
 }
 
 /** The caller's extensions, and glTF-Transform's own for what else the file uses; those that decompress only where they can. */
