@@ -257,6 +257,9 @@ const handOver = (arrays: Arrays) => {
     if (array.buffer.byteLength > 0) structuredClone(null, { transfer: [array.buffer as ArrayBuffer] });
 };
 
+/** What arrays are called where they are given, if not by that name. */
+const NAMES: Record<string, string> = { a: 'at', b: 'at', c: 'at', d: 'shape', widths: 'width' };
+
 const names = Object.keys(CALLS);
 const callOf = (name: string) => CALLS[name] as NonNullable<(typeof CALLS)[string]>;
 const untouched = async (name: string) => {
@@ -288,6 +291,16 @@ describe.each(names)('%s', (name) => {
     const given = await arrays();
     handOver(given);
     await expect((async () => call(given, () => {}))()).rejects.toBeInstanceOf(HandlebodyError);
+  });
+
+  test('one that was handed over is refused by its name', async () => {
+    for (const key of Object.keys(await arrays())) {
+      const given = await arrays();
+      handOver({ [key]: given[key] as TypedArray });
+      const error = await (async () => call(given, () => {}))().catch((thrown) => thrown);
+      expect(error, key).toBeInstanceOf(HandlebodyError);
+      expect(error.message, key).toMatch(new RegExp(`memory of "[^"]*${NAMES[key] ?? key}" was handed to another thread`));
+    }
   });
 
   test('arrays that threads share give the same', async () => {
