@@ -16,11 +16,11 @@ export const VIEW = { name: 'view', test: /web[\\/](stage[\\/]|three[\\/]handles
  * imports lazily wants Vite's helper for it: in the chunk of some other part it would bring that to every page. */
 export const PAGE = {
   name: 'page',
-  test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\.|wasm[\\/]ts[\\/](copied|errors|hash|origin)\.|vite[\\/]preload-helper/,
+  test: /web[\\/]ui[\\/](dom|drag|explain|messages|motion|note|page-error|progress|put-handle|screen)\.|wasm[\\/]ts[\\/](arguments|bound|copied|errors|hash|origin)\.|vite[\\/]preload-helper/,
 };
 
 /** For pages with elements, whose runtime is told apart by the size budget. */
-export const GROUND = { name: 'ground', test: /wasm[\\/]ts[\\/](copied|errors|hash|origin)\./ };
+export const GROUND = { name: 'ground', test: /wasm[\\/]ts[\\/](arguments|bound|copied|errors|hash|origin)\./ };
 
 /** The same for pages with elements, and with it what those are until they show something. */
 export const ELEMENT = { name: 'element', test: new RegExp(`${PAGE.test.source}|web[\\\\/]element[\\\\/]index\\.`) };

@@ -46,14 +46,17 @@ export function verifyNodes({
   });
 
   // With one parent at most, nodes that no root reaches run in a circle.
-  const reached = new Set<number>();
   let level = nodes.flatMap((_, i) => (parents[i] === -1 ? [i] : []));
   for (let depth = 0; level.length > 0; depth++) {
     if (depth > MAX_DEPTH) fail('deep', [MAX_DEPTH, level[0]]);
-    for (const i of level) reached.add(i);
-    level = level.flatMap((i) => children[i] as number[]);
+    level = level.flatMap((i) => {
+      const below = children[i] as number[];
+      delete children[i];
+      return below;
+    });
   }
-  if (reached.size < nodes.length) fail('circle', [nodes.findIndex((_, i) => !reached.has(i))]);
+  const circle = children.findIndex(Boolean);
+  if (circle !== -1) fail('circle', [circle]);
 
   optional({ scene }, 'scene', size('scenes'), '');
   for (const [i, entry] of (lists.scenes ?? []).entries()) {

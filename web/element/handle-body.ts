@@ -32,11 +32,7 @@ export class HandleBodyElement extends ModelElement {
   }
 
   set handles(handles: readonly AskedHandle[] | string) {
-    try {
-      this.keep('handles', typeof handles === 'object' ? writeHandles(handles) : handles);
-    } catch (error) {
-      this.tell(error);
-    }
+    this.attempt(() => this.keep('handles', typeof handles === 'object' ? writeHandles(handles) : handles), false);
   }
 
   /** Where the handles are to go, model units: write it, and the body follows. Empty until it has come. */
@@ -46,12 +42,12 @@ export class HandleBodyElement extends ModelElement {
 
   set targets(targets: readonly (readonly [number, number, number])[]) {
     if (Array.isArray(targets) && targets.every(isPlace)) this.shown?.move(targets);
-    else this.tell(wrongProperty('targets', targets, 'three coordinates for each handle: [[0, 1, 0], [1, 0, 0]]'));
+    else this.tell(wrongProperty('targets', targets, '[x, y, z] for each handle'));
   }
 
   /** Where a vertex of the model is now, model units. */
   vertex(index: number): readonly [number, number, number] | undefined {
-    if (!(Number.isInteger(index) && index >= 0)) throw wrongProperty('index', index, 'a vertex number, from 0 on');
+    if (!(Number.isInteger(index) && index >= 0)) throw wrongProperty('index', index, 'a whole number from 0 on');
     return this.shown?.vertex(index);
   }
 

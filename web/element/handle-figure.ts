@@ -41,7 +41,7 @@ export class HandleFigureElement extends ElementBase {
   set state(text: string) {
     const line: unknown = text === undefined ? '' : text;
     if (typeof line !== 'string') {
-      this.tell(wrongProperty('state', line, 'a line of text, such as the property itself is'));
+      this.tell(wrongProperty('state', line, 'a string'));
       return;
     }
     this.#left = line;

@@ -1,7 +1,7 @@
 import { PageError } from '../ui/page-error.ts';
 import { isPlace, wrongProperty } from './property.ts';
 
-const ASKED = 'a list of { name, vertex } or { name, at: [x, y, z] }, or text as the attribute has it';
+const ASKED = 'a list of { vertex } or { at: [x, y, z] }, or text';
 
 /** A handle as a page asks for it: a vertex of the model, or a place inside, model units. */
 export type AskedHandle = ({ readonly vertex: number } | { readonly at: readonly [number, number, number] }) & {

@@ -133,10 +133,10 @@ export abstract class ModelElement extends ElementBase {
   }
 
   /** Does what a wrong attribute may keep from being done, which is then told. @internal */
-  protected attempt(work: () => void): void {
+  protected attempt(work: () => void, quiets = true): void {
     try {
       work();
-      this.quiet();
+      if (quiets) this.quiet();
     } catch (error) {
       this.tell(error);
     }

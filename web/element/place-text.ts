@@ -23,7 +23,7 @@ export function readPlace(text: string): NamedPlace {
 
 /** A place that a program gave. Throws what it cannot be. */
 export function checkPlace(place: NamedPlace): NamedPlace {
-  const wanted = 'numbers by the names of dimensions, or text: "valence=0.6, arousal=0.4"';
+  const wanted = 'numbers by names: { valence: 0.6, arousal: 0.4 }';
   if (Object.prototype.toString.call(place) !== '[object Object]') throw wrongProperty('at', place, wanted);
   for (const [name, number] of Object.entries(place))
     if (number !== undefined && !Number.isFinite(number)) throw wrongProperty(`at.${name}`, number, wanted);

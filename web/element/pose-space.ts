@@ -31,17 +31,15 @@ export class PoseSpaceElement extends ModelElement {
 
   set at(place: NamedPlace | string) {
     const { shown } = this;
-    const written = () => readPlace(this.getAttribute('at') ?? '');
-    const read = () => (place === undefined ? written() : typeof place === 'string' ? readPlace(place) : checkPlace(place));
-    if (shown) this.attempt(() => shown.go(read()));
     // Text that cannot be read is told when the model comes.
-    else if (typeof place === 'string') this.setAttribute('at', place);
+    if (typeof place === 'string' && !shown) this.setAttribute('at', place);
     else
-      try {
-        this.state = { ...this.state, at: read() };
-      } catch (error) {
-        this.tell(error);
-      }
+      this.attempt(() => {
+        const text = place === undefined ? (this.getAttribute('at') ?? '') : place;
+        const at = typeof text === 'string' ? readPlace(text) : checkPlace(text);
+        if (shown) shown.go(at);
+        else this.state = { ...this.state, at };
+      }, shown !== undefined);
   }
 
   /** The examples' weights at the place where it is: name, and number. Empty until it has come. */

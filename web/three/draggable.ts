@@ -78,19 +78,21 @@ const handleList = (value: unknown, name: string) =>
 
 const BAKED = 'Give what bake() made, or a baked file holds.';
 
-const READERS = {
-  hb: solver,
-  camera,
-  container,
-  handles: optional(handleList),
-  unstyled: optional(flag),
-  iterations: optional(whole(1, 1e6)),
-  onWake: optional(callback),
-  onMove: optional(callback),
-  onSelect: optional(callback),
-  onDrag: optional(callback),
-  onError: optional(callback),
-} satisfies Readers<DraggableOptions>;
+// A function, since pages that make a Draggable themselves are not to fetch it.
+const readers = () =>
+  ({
+    hb: solver,
+    camera,
+    container,
+    handles: optional(handleList),
+    unstyled: optional(flag),
+    iterations: optional(whole(1, 1e6)),
+    onWake: optional(callback),
+    onMove: optional(callback),
+    onSelect: optional(callback),
+    onDrag: optional(callback),
+    onError: optional(callback),
+  }) satisfies Readers<DraggableOptions>;
 
 /**
  * Makes a baked model follow its handles: it owns the handles over the canvas, the solver's targets in the object's own space, solving, and
@@ -111,7 +113,7 @@ export function draggable(object: Object3D, body: BodyData, options: DraggableOp
   object3D(object, 'object');
   const { mesh } = record(body, 'body', BAKED);
   record(mesh, 'body.mesh', BAKED);
-  readOptions(options, READERS);
+  readOptions(options, readers());
   return bound(
     new Draggable(object, body, {
       ...options,

@@ -1,4 +1,4 @@
-import { flag, optional, type Readers, options as readOptions } from '../../wasm/ts/arguments.ts';
+import { flag, optional, options as readOptions } from '../../wasm/ts/arguments.ts';
 import { adoptHandleStyle } from './handle-style.ts';
 import { BareHandles, type BareHandlesOptions, HANDLES_READERS } from './handles.ts';
 
@@ -6,8 +6,6 @@ export interface HandleOverlayOptions extends BareHandlesOptions {
   /** The page styles the handles by itself, from nothing. */
   readonly unstyled?: boolean;
 }
-
-const READERS = { ...HANDLES_READERS, unstyled: optional(flag) } satisfies Readers<HandleOverlayOptions>;
 
 /**
  * Handles over a three.js canvas, as `BareHandles` has them, with a style that any rule of the page's overrides: see `HANDLE_STYLE`.
@@ -29,7 +27,7 @@ export class HandleOverlay extends BareHandles {
   #styled: boolean;
 
   constructor(options: HandleOverlayOptions) {
-    const read = readOptions(options, READERS) as HandleOverlayOptions;
+    const read = readOptions(options, { ...HANDLES_READERS, unstyled: optional(flag) }) as HandleOverlayOptions;
     super(read);
     [this.#container, this.#styled] = [read.container, read.unstyled ?? false];
   }
