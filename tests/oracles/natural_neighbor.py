@@ -128,7 +128,7 @@ def exact_cases():
     turn = np.array([[0.8, -0.6], [0.6, 0.8]])
     circle = np.array([[3, 4], [4, 3], [-3, 4], [5, 0], [0, -5], [-4, -3], [3, -4], [-5, 0]], float)
     scattered = some(12)
-    needle = some(8) * [1, 1e-6]
+    needle = some(8) * [1, 1e-6] @ turn  # along an axis, it would be evened out
     crowd = np.vstack([some(6), np.round([0.2, 0.1] + 1e-4 * some(5), 8)])
     yield exact_case("grid", grid, [[1.5, 1.5], [0.25, 0.5], [1.7, 2.2], [1.0, 1.25], [2.9, 2.95], [1.0001, 1.9999]])
     yield exact_case("turned grid, far from the origin", grid @ turn + 1e4, inside(grid, 5, 0.1) @ turn + 1e4)

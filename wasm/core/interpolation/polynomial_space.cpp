@@ -84,9 +84,14 @@ void PolynomialSpace::reduce(const Matrix& points) {
   Vector center(d), extents(d);
   MatrixXd offsets(n, d), even(n, d);
   for (Index axis = 0; axis < d; ++axis) {
-    double sum = 0, extent = 0;
-    for (Index i = 0; i < n; ++i) sum += points(i, axis);
-    center[axis] = sum / static_cast<double>(n);
+    double sum = 0, extent = 0, low = points(0, axis), high = low;
+    for (Index i = 0; i < n; ++i) {
+      sum += points(i, axis);
+      low = std::min(low, points(i, axis));
+      high = std::max(high, points(i, axis));
+    }
+    // Rounded, the mean of equal numbers may be another one, and all of them would seem to lie beside it.
+    center[axis] = low == high ? low : sum / static_cast<double>(n);
     for (Index i = 0; i < n; ++i) extent = std::max(extent, std::abs(offsets(i, axis) = points(i, axis) - center[axis]));
     extents[axis] = extent > 0 && std::isfinite(1 / extent) ? extent : 1;
     for (Index i = 0; i < n; ++i) even(i, axis) = offsets(i, axis) / extents[axis];
