@@ -22,7 +22,10 @@ const OF_SOME_MODELS = [
   /^assets\/fault-words/,
 ];
 
-/** The smaller wasm may take 185 kB of each (.size-limit.json). */
+/**
+ * The smaller wasm may take 195 kB of each (.size-limit.json): 185 before polynomials went by what points tell apart, axes by what they span,
+ * remedies by trial, and memory that runs out was given back.
+ */
 const PAGES = [
   {
     name: 'studio',
@@ -30,8 +33,9 @@ const PAGES = [
     page: 'studio/index.html',
     // Asked for only after a first drag: a model of the user's own is baked in a worker, by the whole wasm.
     later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json)/, /^three\/farthest/],
-    // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped.
-    budget: { 'with three.js': 411_000, without: 252_000 },
+    // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped; 411 and 252 before
+    // the wasm grew.
+    budget: { 'with three.js': 422_000, without: 263_000 },
   },
   {
     name: 'one tag',
@@ -48,7 +52,7 @@ const PAGES = [
       /^_bake-in-worker/,
       /^assets\/open-unusual/,
     ],
-    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 41_000 },
+    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 41_500 },
   },
 ];
 
