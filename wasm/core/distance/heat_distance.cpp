@@ -94,7 +94,9 @@ void HeatDistance::assemble() {
     poisson_diagonal[v] = inside + (held ? 1 : 0);
   }
   laplacian.finalize();
-  heat_matrix_ = heat_time * laplacian;
+  // Not by an expression: Eigen multiplies its rows and columns to reserve entries, which overflows where sizes have 32 bits.
+  heat_matrix_ = laplacian;
+  heat_matrix_ *= heat_time;
   heat_matrix_.diagonal() = heat_diagonal;
   poisson_matrix_.swap(laplacian);
   poisson_matrix_.diagonal() = poisson_diagonal;
