@@ -30,7 +30,7 @@ export const parts: readonly PartControl<State>[] = [
   {
     parameter: ({ show, in: [left, right, bottom, top] }) => {
       const [from, to] = show.section === 'up' ? [left, right] : [bottom, top];
-      return range('Section at', { from, to, value: 0, step: (to - from) / 1000 });
+      return range('Section at', { from, to, value: Math.min(Math.max(0, from), to), step: to / 1000 - from / 1000 });
     },
     when: ({ d, show }) => d === 2 && (show.section === 'across' || show.section === 'up'),
     read: ({ show }) => show.sectionAt,
