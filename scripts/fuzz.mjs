@@ -54,7 +54,10 @@ function checkCalls() {
   return missing.length === 0;
 }
 
-/** Fuzzes readers, each for so long; whether nothing failed. @param {string[]} readers @param {{ seconds?: number | undefined, runs?: number | undefined }} limits */
+/**
+ * Fuzzes readers, each for so long; whether nothing failed.
+ * @param {string[]} readers @param {{ seconds?: number | undefined, runs?: number | undefined }} limits
+ */
 async function fuzzReaders(readers, { seconds, runs }) {
   if (readers.length === 0) return true;
   const program = at('tests', 'fuzz', 'parsers', 'main.mjs');

@@ -1,6 +1,7 @@
-// `npm test`: installs what it needs, then runs every suite: native C++, the same in wasm of 32 bits, TypeScript on the real wasm, a real browser on the built site, and
-// two consumers of the packed library. The last line is always "N passed, N failed". REQUIRE_NATIVE=1 and REQUIRE_CONSUMERS=1 make a suite
-// that cannot run a failure. `npm test -- ts` (native, wasm32, ts, web, consumers) runs only the suites that are named.
+// `npm test`: installs what it needs, then runs every suite: native C++, the same in wasm, whose sizes have 32 bits, TypeScript on the real
+// wasm, a real browser on the built site, and two consumers of the packed library. The last line is always "N passed, N failed".
+// REQUIRE_NATIVE=1 and REQUIRE_CONSUMERS=1 make a suite that cannot run a failure. `npm test -- ts` (native, wasm32, ts, web, consumers) runs
+// only the suites that are named.
 import { existsSync, readdirSync } from 'node:fs';
 import { ensureInstalled } from './lib/install.mjs';
 import { prepareNativeSuite, prepareWasm32Suite } from './lib/native.mjs';

@@ -1,6 +1,7 @@
 // Points that do not determine the polynomials that a kernel wants: on a line, in a plane, too few. The tail is then the least-norm one.
 import { describe, expect, test } from 'vitest';
 import { KERNELS, type KernelName, load, type RbfOptions } from '../../wasm/ts/index.ts';
+import { POSE_KERNELS } from './support/pose-kernels.ts';
 import { expectClose, random, rotate, rotation } from './support/scattered.ts';
 
 const hb = await load();
@@ -116,16 +117,7 @@ test(`moving least squares of every degree and weight reproduces lines on a line
 
 test(`pose spaces of every kernel that can have a tail of degree 1 do so too (seed ${seed})`, () => {
   const next = random(seed + 3);
-  const kernels = [
-    'linear',
-    'cubic',
-    'thin-plate',
-    'gaussian',
-    'multiquadric',
-    'inverse-multiquadric',
-    'inverse-quadratic',
-  ] as const;
-  for (const kernel of kernels)
+  for (const kernel of POSE_KERNELS)
     for (const [name, points] of Object.entries(sets(next))) {
       const examples = Array.from({ length: points.length / 3 }, (_, k) => {
         const at = points.slice(3 * k, 3 * k + 3);

@@ -1,18 +1,10 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { HandlebodyError, load, POSE_SPACE_DEFAULTS, type PoseExample, type PoseSpaceOptions } from '../../wasm/ts/index.ts';
+import { POSE_KERNELS } from './support/pose-kernels.ts';
 
 const hb = await load();
 const seed = 19800101;
-const kernels = [
-  'linear',
-  'cubic',
-  'thin-plate',
-  'gaussian',
-  'multiquadric',
-  'inverse-multiquadric',
-  'inverse-quadratic',
-] as const satisfies readonly PoseSpaceOptions['kernel'][];
 
 // Approximate readings of Russell's (1980) Fig. 4; shapes made so that each is easy to recognize.
 const places: Record<string, readonly [number, number]> = {
@@ -49,8 +41,8 @@ describe('weights', () => {
   test.each([
     ['cardinal', undefined],
     ['normalized', undefined],
-    ...kernels.map((kernel) => ['cardinal', kernel] as const),
-    ...kernels.slice(3).map((kernel) => ['normalized', kernel] as const),
+    ...POSE_KERNELS.map((kernel) => ['cardinal', kernel] as const),
+    ...POSE_KERNELS.slice(3).map((kernel) => ['normalized', kernel] as const),
   ] as const)('%s %s: 1 at the own place, 0 at the others to 1e-9, sum 1', (method, kernel) => {
     using space = hb.poseSpace({ dimensions, examples, method, ...(kernel && { kernel }) });
     expect(space.names).toEqual(Object.keys(places));

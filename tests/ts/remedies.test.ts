@@ -10,6 +10,7 @@ import {
   type RbfOptions,
   type RbfWarning,
 } from '../../wasm/ts/index.ts';
+import { POSE_KERNELS } from './support/pose-kernels.ts';
 import { random } from './support/scattered.ts';
 
 const hb = await load();
@@ -288,17 +289,8 @@ describe('errors', () => {
 
   test(`pose spaces of any kernel, degree and width over random places (seed ${seed})`, () => {
     const next = random(seed + 1);
-    const kernels = [
-      'linear',
-      'cubic',
-      'thin-plate',
-      'gaussian',
-      'multiquadric',
-      'inverse-multiquadric',
-      'inverse-quadratic',
-    ] as const;
     let followed = 0;
-    for (const kernel of kernels)
+    for (const kernel of POSE_KERNELS)
       for (const method of ['cardinal', 'normalized'] as const)
         for (const degree of [-1, 0, 1] as const)
           for (const width of ['auto', 1e-3, 1, 1e3] as const) {

@@ -1,6 +1,8 @@
 /** Turns everything that can be baked into what the solver bakes: a mesh to show and deform, and what is known of its inside. */
+
 import type { Exports } from './abi.generated.ts';
 import { checkNames, numbers, positive, row, whole } from './arguments.ts';
+import { boxOf } from './box.ts';
 import { copied, unshared } from './copied.ts';
 import { HandlebodyError } from './errors.ts';
 import type { Heap } from './heap.ts';
@@ -44,17 +46,7 @@ function aboutOrigin(prepared: PreparedShape): PreparedShape {
   const { mesh, used } = prepared;
   const { positions, triangles } = mesh;
   if (!(positions instanceof Float64Array)) return prepared;
-  const low: [number, number, number] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
-  const high: [number, number, number] = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  const widen = (vertex: number) => {
-    for (const axis of [0, 1, 2] as const) {
-      const x = positions[3 * vertex + axis] as number;
-      low[axis] = Math.min(low[axis], x);
-      high[axis] = Math.max(high[axis], x);
-    }
-  };
-  if (triangles.length > 0) for (const vertex of triangles) widen(vertex);
-  else for (let vertex = 0; vertex < positions.length / 3; vertex++) if (!used || used[vertex] === 1) widen(vertex);
+  const { low, high } = boxOf(positions, triangles, used);
   const origin = chooseOrigin(low, high);
   if (!origin) return prepared;
   // The arrays are this function's own by now.

@@ -1,4 +1,5 @@
 /** What handles' places leave to be said: the nearest place inside, and turns that no handle holds. */
+import { boxOf } from './box.ts';
 import { HandlebodyError } from './errors.ts';
 import type { BodyData, IrbfWarning, Vec3 } from './types.ts';
 
@@ -16,23 +17,19 @@ export function withNearest(error: unknown, body: BodyData, places: Float64Array
   const words = (x: readonly number[]) =>
     `(${x.map((number, axis) => Number((Math.round((number + (mesh.origin?.[axis] ?? 0)) / step) * step).toPrecision(12))).join(', ')})`;
   const at = AXES.map((axis) => places[3 * index + axis] as number);
-  let nearest: number[] = at;
-  let least = Number.POSITIVE_INFINITY;
-  for (const voxel of voxels) {
+  const place = (voxel: number): Vec3 => {
     const [nx, ny] = grid.dimensions;
-    const steps = [voxel % nx, Math.floor(voxel / nx) % ny, Math.floor(voxel / (nx * ny))];
-    const place = AXES.map((axis) => center[axis] + diagonal * (grid.origin[axis] + grid.spacing * (steps[axis] as number)));
-    const far = Math.hypot(...AXES.map((axis) => (place[axis] as number) - (at[axis] as number)));
-    if (far < least) [least, nearest] = [far, place];
-  }
-  const corner = (pick: (...numbers: number[]) => number, start: number) => {
-    const reach = [start, start, start];
-    for (let i = 0; i < mesh.positions.length; i++) reach[i % 3] = pick(reach[i % 3] as number, mesh.positions[i] as number);
-    return words(reach);
+    const steps: Vec3 = [voxel % nx, Math.floor(voxel / nx) % ny, Math.floor(voxel / (nx * ny))];
+    const of = (axis: 0 | 1 | 2) => center[axis] + diagonal * (grid.origin[axis] + grid.spacing * steps[axis]);
+    return [of(0), of(1), of(2)];
   };
-  const [low, high] = [corner(Math.min, Number.POSITIVE_INFINITY), corner(Math.max, Number.NEGATIVE_INFINITY)];
+  const [x = 0, y = 0, z = 0] = at;
+  const far = ([a, b, c]: Vec3) => Math.hypot(a - x, b - y, c - z);
+  const inside = Array.from(voxels, place);
+  const nearest = inside.reduce((best, one) => (far(one) < far(best) ? one : best), inside[0] ?? [x, y, z]);
+  const { low, high } = boxOf(mesh.positions, mesh.triangles);
   return new HandlebodyError(error.code, {
-    message: `Handle ${index} at ${words(at)} lies outside the model, which spans ${low} to ${high}.`,
+    message: `Handle ${index} at ${words(at)} lies outside the model, which spans ${words(low)} to ${words(high)}.`,
     remedy: `Put it at ${words(nearest)}, the nearest point inside, or on a vertex.`,
     culprit: error.culprit,
     cause: error,

@@ -1,4 +1,5 @@
 import type { Document } from '@gltf-transform/core';
+import { boxOf } from '../../wasm/ts/box.ts';
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import type { Mesh } from '../../wasm/ts/types.ts';
 import { type BodyProperty, HANDLEBODY_BODY, readBody, readMesh, readPoseSpaces } from '../assets/index.ts';
@@ -47,24 +48,17 @@ function describeSurface(document: Document) {
 /** The box, in the scene's units, of what triangles use; of a cloud, of all. Throws 'mesh-not-finite': a box of other things than numbers is none. */
 function boundsOf({ positions, triangles, origin = [0, 0, 0] }: Mesh): { low: number[]; high: number[] } | undefined {
   if (positions.length === 0) return undefined;
-  const [low, high] = [new Array<number>(3).fill(Number.POSITIVE_INFINITY), new Array<number>(3).fill(Number.NEGATIVE_INFINITY)];
-  const widen = (vertex: number) => {
-    for (let axis = 0; axis < 3; axis++) {
-      const x = (positions[3 * vertex + axis] as number) + (origin[axis] as number);
-      if (!Number.isFinite(x)) {
-        throw new HandlebodyError('mesh-not-finite', {
-          message: `Vertex ${vertex} has a coordinate that is ${x}.`,
-          remedy: 'Export the model again; a glTF validator says more.',
-          culprit: { kind: 'vertex', index: vertex },
-        });
-      }
-      low[axis] = Math.min(low[axis] as number, x);
-      high[axis] = Math.max(high[axis] as number, x);
-    }
-  };
-  if (triangles && triangles.length > 0) for (let i = 0; i < triangles.length; i++) widen(triangles[i] as number);
-  else for (let vertex = 0; vertex < positions.length / 3; vertex++) widen(vertex);
-  return { low, high };
+  const { low, high } = boxOf(positions, triangles);
+  if ([...low, ...high].every(Number.isFinite))
+    return { low: low.map((x, axis) => x + (origin[axis] as number)), high: high.map((x, axis) => x + (origin[axis] as number)) };
+  const isWrong = (vertex: number) => positions.subarray(3 * vertex, 3 * vertex + 3).some((x) => !Number.isFinite(x));
+  const all = triangles.length > 0 ? triangles : Uint32Array.from({ length: positions.length / 3 }, (_, vertex) => vertex);
+  const vertex = all.find(isWrong) as number;
+  throw new HandlebodyError('mesh-not-finite', {
+    message: `Vertex ${vertex} has the coordinates ${positions.subarray(3 * vertex, 3 * vertex + 3).join(', ')}.`,
+    remedy: 'Export the model again; a glTF validator says more.',
+    culprit: { kind: 'vertex', index: vertex },
+  });
 }
 
 /** A body that does not fit, or is damaged, is described as far as it goes, with what is wrong with it. */
