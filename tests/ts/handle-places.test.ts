@@ -27,7 +27,10 @@ const numbersIn = (text: string) => [...text.matchAll(/\(([^)]+)\)/g)].map(([, i
 describe('a handle outside', () => {
   test('is told where the surface is, whatever vertices lie about', async () => {
     const { positions, triangles } = boxMesh([4, 2, 2], [5, 3, 3]);
-    const body = await hb.bake({ positions: Float64Array.of(...positions, 90, 90, 90), triangles }, { centers: 10, resolution: 16, spheres: 4 });
+    const body = await hb.bake(
+      { positions: Float64Array.of(...positions, 90, 90, 90), triangles },
+      { centers: 10, resolution: 16, spheres: 4 },
+    );
     using irbf = hb.irbf(body);
     const error = errorOf(() => irbf.setHandles([{ at: [60, 1, 1] }]));
     expect(numbersIn(error.message).slice(1)).toEqual([
