@@ -9,6 +9,7 @@
 //   npm run fuzz -- --seeds                   writes the seeds that are committed, from what fuzzing has found so far
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
+import { sideBySide } from './lib/cmake.mjs';
 import { buildFuzz, buildReplays, fuzz, fuzzTargets, packSeeds, replay, unfuzzed } from './lib/fuzz.mjs';
 import { coverTarget } from './lib/fuzz-coverage.mjs';
 import { FOR_EMSCRIPTEN } from './lib/native.mjs';
@@ -92,7 +93,7 @@ await runMain(async () => {
   }
   if (modes.has('--check')) {
     const program = await buildReplays(targets);
-    for (const target of targets) {
+    await sideBySide(targets, async (target) => {
       const result = await replay(target, target.unpack(), (list) => [
         process.execPath,
         [...FOR_EMSCRIPTEN, program(target), list],
@@ -101,13 +102,13 @@ await runMain(async () => {
         `${target.name}, in wasm: ${result.files} inputs, the slowest in ${result.slowest} s${result.failed ? ': FAILED' : ''}`,
       );
       sound &&= !result.failed;
-    }
+    });
   }
   const limits = modes.has('--check') ? { seconds: CHECK_SECONDS } : { ...(runs ? { runs } : { seconds: seconds ?? 60 }) };
-  for (const target of targets) {
+  await sideBySide(targets, async (target) => {
     const result = await fuzz(folder, target, limits);
     say(result);
     sound &&= !result.failed;
-  }
+  });
   return sound ? 0 : 1;
 });

@@ -1,7 +1,7 @@
 // `npm run lint`: formatting, linting, types and layering of everything that is ours. With --fix it formats first. Checks that need a
 // tool of the C++ side are reported as not run where it is missing, and fail under REQUIRE_NATIVE=1.
 import { readFileSync } from 'node:fs';
-import { buildJobs } from './lib/cmake.mjs';
+import { sideBySide } from './lib/cmake.mjs';
 import { isCpp } from './lib/imports.mjs';
 import { ensureInstalled } from './lib/install.mjs';
 import { configureNative, TIDY_BUILD } from './lib/native.mjs';
@@ -59,10 +59,10 @@ async function clangTidy() {
   if (!which('clang-tidy')) return 'clang-tidy is missing';
   const problem = await configureNative(TIDY_BUILD, ['-DHANDLEBODY_PRECOMPILE=OFF']);
   if (problem) return problem;
-  const queue = cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file));
   let failures = 0;
-  const worker = async () => {
-    for (let file = queue.shift(); file; file = queue.shift()) {
+  await sideBySide(
+    cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file)),
+    async (file) => {
       let output = '';
       const collect = (/** @type {string} */ text) => {
         output += text;
@@ -71,12 +71,11 @@ async function clangTidy() {
         stdio: ['ignore', 'pipe', 'ignore'],
         onOutput: collect,
       });
-      if (status === 0) continue;
+      if (status === 0) return;
       failures += 1;
       console.error(`${file}\n${output.trim()}`);
-    }
-  };
-  await Promise.all(Array.from({ length: buildJobs() }, worker));
+    },
+  );
   return failures === 0 ? 0 : 1;
 }
 

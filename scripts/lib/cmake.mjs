@@ -19,21 +19,25 @@ function thisMachine() {
 }
 
 /**
- * Builds a target, with a line of progress for every tenth of the work; what a compiler says comes through whole.
+ * Builds targets, all where none is named, with a line of progress for every tenth of the work; what a compiler says comes through whole.
  * @param {string} folder configured before
- * @param {{ target?: string, env?: NodeJS.ProcessEnv }} [options]
+ * @param {{ targets?: readonly string[], env?: NodeJS.ProcessEnv }} [options]
  * @returns {Promise<number>} CMake's status
  */
-export async function cmakeBuild(folder, { target, env } = {}) {
+export async function cmakeBuild(folder, { targets = [], env } = {}) {
   const jobs = buildJobs();
-  console.log(`Compiling${target ? ` ${target}` : ''}, ${jobs} at once …`);
+  console.log(`Compiling${targets.length > 0 ? ` ${targets.join(', ')}` : ''}, ${jobs} at once …`);
   const start = performance.now();
   const progress = new BuildProgress((line) => console.log(line));
-  const status = await run('cmake', ['--build', folder, '--parallel', `${jobs}`, ...(target ? ['--target', target] : [])], {
-    ...(env && { env }),
-    stdio: ['ignore', 'pipe', 'inherit'],
-    onOutput: (text) => progress.add(text),
-  });
+  const status = await run(
+    'cmake',
+    ['--build', folder, '--parallel', `${jobs}`, ...(targets.length > 0 ? ['--target', ...targets] : [])],
+    {
+      ...(env && { env }),
+      stdio: ['ignore', 'pipe', 'inherit'],
+      onOutput: (text) => progress.add(text),
+    },
+  );
   progress.end();
   console.log(`${status === 0 ? 'Compiled' : 'Not compiled'} (${((performance.now() - start) / 1000).toFixed(0)} s).`);
   return status;
@@ -78,4 +82,16 @@ export class BuildProgress {
     this.#told = tenth;
     this.#write(`  ${(this.#told * 10).toString().padStart(3)} %${steps ? ` (${steps[1]} of ${steps[2]})` : ''}`);
   }
+}
+
+/**
+ * Does it to each, so many at once as there may be compilers.
+ * @template T @param {readonly T[]} items @param {(item: T) => Promise<void>} work
+ */
+export async function sideBySide(items, work) {
+  const queue = [...items];
+  const worker = async () => {
+    for (let item = queue.shift(); item !== undefined; item = queue.shift()) await work(item);
+  };
+  await Promise.all(Array.from({ length: buildJobs() }, worker));
 }

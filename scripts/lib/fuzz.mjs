@@ -84,8 +84,8 @@ export async function buildFuzz(kind, targets) {
   const folder = at('build', kind);
   const problem = await configureNative(folder, [`-DHANDLEBODY_FUZZ=${kind}`, `-DCMAKE_CXX_COMPILER=${CLANG}`]);
   if (problem) throw new Error(`Fuzzing needs what the native tests need: ${problem}.`);
-  for (const { program } of targets)
-    if ((await cmakeBuild(folder, { target: program })) !== 0) throw new Error(`tests/fuzz/${program}.cpp does not compile.`);
+  if ((await cmakeBuild(folder, { targets: targets.map(({ program }) => program) })) !== 0)
+    throw new Error('The targets of tests/fuzz do not compile.');
   return folder;
 }
 
@@ -222,13 +222,8 @@ export async function replay(target, inputs, command) {
 
 /** Builds the targets for Node. @param {FuzzTarget[]} targets */
 export async function buildReplays(targets) {
-  /** @type {((name: string) => string) | undefined} */
-  let program;
-  for (const target of targets) {
-    const built = await buildForNode(target.program);
-    if ('problem' in built) throw new Error(`Running the inputs in wasm needs Emscripten: ${built.problem}.`);
-    if ('failed' in built) throw new Error(`tests/fuzz/${target.program}.cpp does not compile to wasm.`);
-    program = built.program;
-  }
-  return (/** @type {FuzzTarget} */ target) => program?.(target.program) ?? '';
+  const built = await buildForNode(targets.map(({ program }) => program));
+  if ('problem' in built) throw new Error(`Running the inputs in wasm needs Emscripten: ${built.problem}.`);
+  if ('failed' in built) throw new Error('The targets of tests/fuzz do not compile to wasm.');
+  return (/** @type {FuzzTarget} */ target) => built.program(target.program);
 }

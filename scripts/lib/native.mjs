@@ -33,7 +33,7 @@ export async function configureNative(folder = NATIVE_BUILD, settings = []) {
 export async function prepareNativeSuite() {
   const notRun = await configureNative();
   if (notRun) return { notRun };
-  if ((await cmakeBuild(NATIVE_BUILD, { target: 'handlebody_tests' })) !== 0) {
+  if ((await cmakeBuild(NATIVE_BUILD, { targets: ['handlebody_tests'] })) !== 0) {
     console.error('native suite: does not compile');
     return { run: async () => ({ passed: 0, failed: 1 }) };
   }
@@ -60,10 +60,10 @@ export const FOR_EMSCRIPTEN = ['--no-experimental-fetch'];
 
 /**
  * Builds what runs in wasm under Node: the native tests, and the fuzz targets that replay files.
- * @param {string} target
+ * @param {readonly string[]} targets
  * @returns {Promise<{ problem: string } | { failed: true } | { program(name: string): string }>} why it cannot be done, or where the programs are
  */
-export async function buildForNode(target) {
+export async function buildForNode(targets) {
   if (!which('emcc') || !which('cmake')) return { problem: 'no Emscripten' };
   const problem = await ensureNative();
   if (problem) return { problem };
@@ -72,7 +72,7 @@ export async function buildForNode(target) {
   const settings = ['-DCMAKE_BUILD_TYPE=Release', '-DHANDLEBODY_FOR_NODE=ON', '-DHANDLEBODY_FUZZ=replay'];
   const configure = ['cmake', '-S', at('wasm'), '-B', WASM_TESTS_BUILD, ...settings, ...generator];
   if ((await run('emcmake', configure, { env, stdio: ['ignore', 'ignore', 'inherit'] })) !== 0) return { failed: true };
-  if ((await cmakeBuild(WASM_TESTS_BUILD, { target, env })) !== 0) return { failed: true };
+  if ((await cmakeBuild(WASM_TESTS_BUILD, { targets, env })) !== 0) return { failed: true };
   return { program: (name) => path.join(WASM_TESTS_BUILD, `${name}.js`) };
 }
 
@@ -81,7 +81,7 @@ export async function buildForNode(target) {
  * @returns {Promise<{ run(): Promise<Counts> } | { notRun: string }>}
  */
 export async function prepareWasm32Suite() {
-  const built = await buildForNode('handlebody_tests');
+  const built = await buildForNode(['handlebody_tests']);
   if ('problem' in built) return { notRun: built.problem };
   if ('failed' in built) return { run: async () => ({ passed: 0, failed: 1 }) };
   return { run: () => runDoctest(process.execPath, [...FOR_EMSCRIPTEN, built.program('handlebody_tests')]) };

@@ -13,7 +13,7 @@ export async function buildNative(name, options, target = 'handlebody_bench') {
   await mustRun('cmake', ['-S', at('tests', 'bench'), '-B', folder, '-DCMAKE_BUILD_TYPE=Release', ...options], {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
-  if ((await cmakeBuild(folder, { target })) !== 0) throw new Error(`${target} does not compile.`);
+  if ((await cmakeBuild(folder, { targets: [target] })) !== 0) throw new Error(`${target} does not compile.`);
   return path.join(folder, target);
 }
 
