@@ -15,7 +15,7 @@ namespace {
 constexpr double rank_tolerance = 1e-10;
 const double root_two = std::sqrt(2.0);
 
-// Plain loops below, and not Eigen's expressions: this runs once a fit, and each expression is compiled into code of its own, 3 kB
+// Plain loops below, and not Eigen's expressions: this runs once a fit, and each expression is compiled into code of its own, 2 kB
 // gzipped in all.
 
 double longest_column(const MatrixXd& columns) {
