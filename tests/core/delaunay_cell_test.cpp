@@ -68,6 +68,25 @@ TEST_CASE("a Delaunay cell holds its place and has an empty sphere through all i
   CHECK(missed > 20);
 }
 
+TEST_CASE("every place between points has its cell, with a point at the origin and in crowds as well (seed 19340101)") {
+  std::mt19937 random(seed + 3);
+  for (int repeat = 0; repeat < 600; ++repeat) {
+    const Index dimension = 2 + repeat % 7, count = dimension + 1 + repeat / 7 % 4;
+    Matrix points = ball_points(random, count, dimension);
+    points.rowwise() -= points.row(repeat % count).eval();
+    if (repeat % 3 == 1) points *= 1e-4;
+    if (repeat % 3 == 2) points.topRows(count / 2) *= 1e-4;
+    DelaunayCell cell(points);
+    for (int query = 0; query < 10; ++query) {
+      Vector shares = random_points(random, count, 1).cwiseAbs();
+      shares /= shares.sum();
+      const Vector place = points.transpose() * shares;
+      CAPTURE(repeat);
+      REQUIRE(cell.find(place.data()));
+    }
+  }
+}
+
 TEST_CASE("cospherical points are found together, all of them, from every place in their hull (seed 19340101)") {
   std::mt19937 random(seed + 1);
   Matrix grid(125, 3);

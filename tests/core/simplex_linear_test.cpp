@@ -358,6 +358,31 @@ TEST_CASE("points that span less than the space are interpolated in their span (
   CHECK(values_at(segment, query)(0, 0) == doctest::Approx(6));
 }
 
+// Coordinates far from the origin lose digits: what lies in a plane lies beside it by their rounding, and so does a mean of such
+// points.
+TEST_CASE("points as few as the space has dimensions, or in a plane, have convex weights far from the origin too (seed 20140728)") {
+  std::mt19937 random(seed + 8);
+  for (const Index dimension : {2, 3, 5, 8})
+    for (const double apart : {1e-1, 1e-4, 1e-7, 1e-10})
+      for (const Index count : {Index{2}, dimension, dimension + 1, Index{30}}) {
+        CAPTURE(dimension);
+        CAPTURE(apart);
+        CAPTURE(count);
+        const Index span = count <= dimension ? dimension : dimension - 1;
+        Matrix points = apart * random_points(random, count, span) * rotation(random, dimension).topRows(span);
+        points.rowwise() += random_points(random, 1, dimension).row(0);
+        auto f = made(points, points);
+        const Matrix queries = inside(random, points, 40);
+        CHECK(largest_difference(values_at(f, queries), queries) < 1e-10 * apart + 1e-15);
+        for (Index q = 0; q < queries.rows(); ++q) {
+          const Vector w = weights_at(f, queries.row(q));
+          CHECK(w.minCoeff() >= 0);
+          CHECK(std::abs(w.sum() - 1) < 1e-14);
+        }
+        CHECK(values_at(f, around(random, points, 20, 10)).allFinite());
+      }
+}
+
 TEST_CASE("nearly cospherical, thin and crowded points still have convex weights that reproduce the place (seed 20140728)") {
   std::mt19937 random(seed + 7);
   std::vector<Matrix> sets;

@@ -34,6 +34,7 @@ DelaunayCell::DelaunayCell(const Matrix& points)
   inverse_.setIdentity();
   for (Index row = 0; row <= points.cols(); ++row) enter(row, 0);
   root_ = basis_;
+  spanned_ = std::find(root_.begin(), root_.end(), no_index) == root_.end();
 }
 
 /** Moves x to `place`. Returns the point nearest to it. */
@@ -127,7 +128,7 @@ bool DelaunayCell::enter(Index row, double direction) {
   Index entering = -1;
   for (Index i = 0; i < n; ++i) {
     const double rate = direction * rates_[i];
-    if (!(rate > least) || powers_[i] > limit * rate) continue;
+    if (!(rate > least) || powers_[i] / rate > limit) continue;  // as a quotient, so that no rounding shuts out all of them
     if (entering < 0 || (!bland() && rate > direction * rates_[entering])) entering = i;
   }
   if (entering < 0) return false;
@@ -167,6 +168,7 @@ bool DelaunayCell::find(const double* place) {
     members_.assign(1, static_cast<std::uint32_t>(nearest));
     return true;
   }
+  if (!spanned_) return false;
   std::uint32_t* start = &starts_[static_cast<std::size_t>(nearest) * basis_.size()];
   if (*start == no_index) {
     measure(points_.data() + nearest * points_.cols());

@@ -29,8 +29,9 @@ class DelaunayCell {
   explicit DelaunayCell(const Matrix& points);
 
   /** Looks for the cell of `place` (d), which must be no farther from the points than they are from each other. False where there
-   * is none, outside the hull by more than rounding, or where a bound on the number of pivots is reached: by Bland's rule ties
-   * cannot cycle, but rounding might make them. Allocates nothing. */
+   * is none, outside the hull by more than rounding, where the points hardly span the space, so that no simplex was found, or where
+   * a bound on the number of pivots is reached: by Bland's rule ties cannot cycle, but rounding might make them. Allocates nothing.
+   */
   bool find(const double* place);
 
   /** The points of the cell found last, ascending. At a point, that point alone. */
@@ -48,21 +49,22 @@ class DelaunayCell {
   bool walk();
 
   Matrix points_;
-  Vector place_;     // x
-  Vector costs_;     // n: ‖pᵢ − x‖²
-  Indices basis_;    // d+1
-  Indices root_;     // d+1: the simplex from which walks to the points start
-  Indices former_;   // scratch of factor()
-  Indices starts_;   // n×(d+1): bases at the points, where their first is not `no_index`
-  Indices members_;  // room for n
-  Matrix inverse_;   // (d+1)×(d+1): row k is barycentric coordinate k, (1, p − x) ↦ λₖ(p); its first number is λₖ(x)
-  Vector column_;    // d+1: barycentric coordinates of the point that enters
-  Vector plane_;     // d+1: the lifted plane through the basis, ‖p − x‖² ≥ plane · (1, p − x)
-  double tie_ = 0;   // powers up to this count as zero
-  Vector powers_;    // n: reduced costs
-  Vector rates_;     // n: how fast they fall while the plane turns
-  Index age_ = 0;    // of the inverse, pivots
-  Index idle_ = 0;   // pivots since the plane last rose
+  Vector place_;          // x
+  Vector costs_;          // n: ‖pᵢ − x‖²
+  Indices basis_;         // d+1
+  Indices root_;          // d+1: the simplex from which walks to the points start
+  bool spanned_ = false;  // whether there is one
+  Indices former_;        // scratch of factor()
+  Indices starts_;        // n×(d+1): bases at the points, where their first is not `no_index`
+  Indices members_;       // room for n
+  Matrix inverse_;  // (d+1)×(d+1): row k is barycentric coordinate k, (1, p − x) ↦ λₖ(p); its first number is λₖ(x)
+  Vector column_;   // d+1: barycentric coordinates of the point that enters
+  Vector plane_;    // d+1: the lifted plane through the basis, ‖p − x‖² ≥ plane · (1, p − x)
+  double tie_ = 0;  // powers up to this count as zero
+  Vector powers_;   // n: reduced costs
+  Vector rates_;    // n: how fast they fall while the plane turns
+  Index age_ = 0;   // of the inverse, pivots
+  Index idle_ = 0;  // pivots since the plane last rose
 };
 
 }  // namespace handlebody

@@ -26,6 +26,20 @@ Matrix span_axes(const Matrix& offsets, double tolerance) {
   return basis.leftCols((sizes.array() > tolerance).count()).transpose();
 }
 
+/** The row nearest to the mean of all, which are divided by `scale` before they are squared. */
+Index nearest_to_mean(const Matrix& points, double scale) {
+  const Index n = points.rows();
+  Vector mean = Vector::Zero(points.cols());
+  for (Index i = 0; i < n; ++i) mean += points.row(i).transpose() / static_cast<double>(n);
+  Index nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < n; ++i) {
+    const double squared = ((points.row(i).transpose() - mean) / scale).squaredNorm();
+    if (squared < least) least = squared, nearest = i;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 /** Where the points are, how large and what they span; the points in that frame. */
@@ -34,10 +48,12 @@ struct SimplexLinear::Frame {
   double scale = 1, radius = 0, rounding = 0;
   Matrix axes, points;
 
-  explicit Frame(const ScatteredData& data) : center(Vector::Zero(data.points.cols())), points(data.points) {
+  explicit Frame(const ScatteredData& data) : center(data.points.cols()), points(data.points) {
     const Index n = points.rows(), d = points.cols();
     if (data.diagonal > 0) scale = data.diagonal;
-    for (Index i = 0; i < n; ++i) center += points.row(i).transpose() / static_cast<double>(n);
+    // One of the points, since a rounded mean may lie beside the line or plane through all: n points would span n dimensions.
+    const Index middle = nearest_to_mean(data.points, scale);
+    for (Index axis = 0; axis < d; ++axis) center[axis] = data.points(middle, axis);
     for (Index i = 0; i < n; ++i) points.row(i) = (points.row(i) - center.transpose()) / scale;
     for (const double coordinate : Eigen::Map<const Vector>(data.points.data(), data.points.size()))
       rounding = std::max(rounding, std::abs(coordinate));

@@ -42,7 +42,7 @@ class SimplexLinear final : public Interpolant {
   bool weigh_cell(double* w);
 
   OutsideHull outside_;
-  Vector center_;    // d: the mean of the points
+  Vector center_;    // d: the point nearest to their mean
   double scale_;     // their diagonal; 1 where that is 0
   Matrix axes_;      // r×d, orthonormal: of the span; 0×d where that is the whole space
   Matrix points_;    // n×r: in the frame of center, scale and axes
