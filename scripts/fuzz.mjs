@@ -6,18 +6,21 @@
 //   npm run fuzz -- irbf glb --seconds 600    these two, ten minutes each; or --runs 200000
 //   npm run fuzz -- --check                   what CI does: all that is committed once, natively and in wasm, then some seconds of fuzzing
 //   npm run fuzz -- --coverage                lines of the files behind each target that its inputs reach
+//   npm run fuzz -- … --record                with --runs, --seconds or --coverage: puts the figures into tests/fuzz/results.json
 //   npm run fuzz -- --seeds                   writes the seeds that are committed, from what fuzzing has found so far
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { sideBySide } from './lib/cmake.mjs';
 import { buildFuzz, buildReplays, fuzz, fuzzTargets, packSeeds, replay, unfuzzed } from './lib/fuzz.mjs';
 import { coverTarget } from './lib/fuzz-coverage.mjs';
+import { recordFuzz, rounded } from './lib/fuzz-results.mjs';
 import { FOR_EMSCRIPTEN } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
 import { run, runMain } from './lib/run.mjs';
 
 const CHECK_SECONDS = 4;
 const CHECK_RUNS = 3000;
+const MODES = ['--check', '--coverage', '--seeds', '--record'];
 const READERS = ['obj', 'ply', 'stl', 'off', 'glb', 'gltf', 'body', 'handles', 'options'];
 
 /** @param {string[]} args */
@@ -30,8 +33,8 @@ function readArguments(args) {
       const value = Number(args[++k]);
       if (!Number.isInteger(value) || value < 1) throw new Error(`${arg} wants a whole number from 1 on.`);
       options[arg === '--runs' ? 'runs' : 'seconds'] = value;
-    } else if (arg === '--check' || arg === '--coverage' || arg === '--seeds') options.modes.add(arg);
-    else if (arg.startsWith('--')) throw new Error(`There is no ${arg}: use --seconds, --runs, --check, --coverage or --seeds.`);
+    } else if (MODES.includes(arg)) options.modes.add(arg);
+    else if (arg.startsWith('--')) throw new Error(`There is no ${arg}: use --seconds, --runs, ${MODES.join(', ')}.`);
     else options.named.push(arg);
   }
   return options;
@@ -83,7 +86,11 @@ await runMain(async () => {
 
   if (modes.has('--coverage')) {
     const folder = await buildFuzz('coverage', targets);
-    for (const target of targets) sound = (await coverTarget(folder, target)) && sound;
+    for (const target of targets) {
+      const { enough, figures } = await coverTarget(folder, target);
+      if (figures && modes.has('--record')) recordFuzz(target.name, figures);
+      sound &&= enough;
+    }
     return sound ? 0 : 1;
   }
   const folder = await buildFuzz('fuzz', targets);
@@ -108,6 +115,9 @@ await runMain(async () => {
   await sideBySide(targets, async (target) => {
     const result = await fuzz(folder, target, limits);
     say(result);
+    const { executions, reached } = result;
+    if (modes.has('--record') && !result.failed)
+      recordFuzz(target.name, { executions, reachedPercent: rounded((100 * reached) / executions) });
     sound &&= !result.failed;
   });
   return sound ? 0 : 1;

@@ -2,6 +2,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { replay } from './fuzz.mjs';
+import { rounded } from './fuzz-results.mjs';
 import { at } from './paths.mjs';
 import { capture } from './run.mjs';
 
@@ -11,9 +12,9 @@ const LEAST = 0.8;
 /** @typedef {{ filename: string, summary: { lines: { count: number, covered: number } } }} FileLines */
 
 /**
- * Prints how much of each file behind the target its inputs reach.
+ * Prints how much of each file behind the target its inputs reach, and whether that is enough.
  * @param {string} folder of the programs @param {import('./fuzz.mjs').FuzzTarget} target
- * @returns {Promise<boolean>} whether they are enough
+ * @returns {Promise<{ enough: boolean, figures?: { linesPercent: number, inputs: number, slowestSeconds: number } }>}
  */
 export async function coverTarget(folder, target) {
   const program = path.join(folder, target.program);
@@ -22,7 +23,7 @@ export async function coverTarget(folder, target) {
   process.env.LLVM_PROFILE_FILE = raw;
   const inputs = readdirSync(target.corpus, { withFileTypes: true }).length > 0 ? target.corpus : target.unpack();
   const { failed, files, slowest, executions, reached } = await replay(target, inputs, (list) => [program, [list]]);
-  if (failed) return false;
+  if (failed) return { enough: false };
   const profile = capture('llvm-profdata-14', ['merge', '-o', merged, raw]);
   const exported = capture('llvm-cov-14', ['export', '-summary-only', '-instr-profile', merged, program]);
   if (profile.status !== 0 || exported.status !== 0) throw new Error(`llvm-cov: ${profile.stderr}${exported.stderr}`);
@@ -44,5 +45,5 @@ export async function coverTarget(folder, target) {
   console.log(
     `${target.name}: ${covered} of ${count} lines (${(100 * part).toFixed(1)} %) of ${behind.length} files; ${files} inputs, ${reached} of ${executions} reach the algorithm, the slowest takes ${slowest} s`,
   );
-  return part >= LEAST;
+  return { enough: part >= LEAST, figures: { linesPercent: rounded(100 * part), inputs: files, slowestSeconds: slowest } };
 }

@@ -303,6 +303,11 @@ TEST_CASE("a voxel volume is its own domain") {
   CHECK(bake(surface.positions, surface.triangles, options).code == HB_ERROR_INVALID_SHAPE);
   options.voxels = {3, 3};
   CHECK(bake(surface.positions, surface.triangles, options).code == HB_ERROR_INVALID_SHAPE);
+  options.voxels = {0, 1};
+  for (const double away : {1e3, 1e9, 1e200, 1e300}) {  // a volume of something else, or in other units
+    options.grid->origin[1] = -away;
+    CHECK(bake(surface.positions, surface.triangles, options).code == HB_ERROR_INVALID_SHAPE);
+  }
 }
 
 TEST_CASE("density draws centers: nine times as dense, a third as far apart") {

@@ -157,4 +157,13 @@ TEST_CASE("a field carries functions inside as the coordinates do, and takes the
     field.evaluate(ring.positions.row(v), carried.data());
     for (int f = 0; f < 5; ++f) CHECK(carried[f] == doctest::Approx(values(v, f)));
   }
+  // From afar the ring as a whole shows neither side.
+  for (const double away : {3., 30., 1e3, 1e9, 1e15}) {
+    field.evaluate(away * Vector3(.6, -.64, .48), carried.data());
+    CAPTURE(away);
+    for (int f = 0; f < 5; ++f) {
+      CHECK(carried[f] >= values.col(f).minCoeff());
+      CHECK(carried[f] <= values.col(f).maxCoeff());
+    }
+  }
 }

@@ -13,6 +13,8 @@ namespace {
 
 /** Voxels whose depth is measured in a step: enough to be worth a call, little enough for a frame. */
 constexpr Index voxels_per_step = 1024;
+/** Diagonals of the body that a voxel inside may be away from its middle: what is farther is a volume of something else. */
+constexpr double farthest_voxel = 100;
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
@@ -56,7 +58,15 @@ Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& vo
     return Error(HB_ERROR_INVALID_SHAPE, {"The voxels inside are not ascending indices into the volume."},
                  {"Give each once, in rising order."});
   }
-  return Grid{normalization.to_solver(model.origin), model.spacing / normalization.diagonal, model.dims};
+  const Grid grid{normalization.to_solver(model.origin), model.spacing / normalization.diagonal, model.dims};
+  for (const std::uint32_t voxel : voxels) {
+    const double away = grid.center(voxel).norm();
+    if (away <= farthest_voxel) continue;
+    return Error(HB_ERROR_INVALID_SHAPE,
+                 {"The voxels inside are not those of this body: voxel ", voxel, " is ", away, " of its diagonals away from it."},
+                 {"Give the volume's origin and spacing in the units of the vertices."});
+  }
+  return grid;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/numerics/indices.hpp"
@@ -99,6 +100,10 @@ MeanValueField::MeanValueField(const ConstPoints& positions, const ConstTriangle
   order_.resize(count);
   for (std::size_t t = 0; t < count; ++t) order_[t] = static_cast<std::uint32_t>(t);
   if (count > 0) build(order_.data(), order_.data() + count);
+  low_.assign(sums_.size(), std::numeric_limits<float>::max());
+  high_.assign(sums_.size(), std::numeric_limits<float>::lowest());
+  for (Index v = 0; v < values_.rows(); ++v)
+    for (Index f = 0; f < columns(); ++f) low_[f] = std::min(low_[f], values_(v, f)), high_[f] = std::max(high_[f], values_(v, f));
 }
 
 void MeanValueField::build(std::uint32_t* first, std::uint32_t* last) {
@@ -205,8 +210,10 @@ void MeanValueField::evaluate(const Vector3& point, float* out) {
   bool on_surface = false;
   double other = 0, total = gather(point, 1, other, on_surface);
   if (!on_surface && other > total) total = gather(point, -1, other, on_surface);
-  const auto scale = static_cast<float>(total > 0 ? 1 / total : 0);
-  for (Index f = 0; f < columns(); ++f) out[f] = scale * sums_[f];
+  for (Index f = 0; f < columns(); ++f) {
+    const double mean = total > 0 ? static_cast<double>(sums_[f]) / total : 0;
+    out[f] = static_cast<float>(std::clamp(mean, static_cast<double>(low_[f]), static_cast<double>(high_[f])));
+  }
 }
 
 }  // namespace handlebody

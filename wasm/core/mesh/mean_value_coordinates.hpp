@@ -27,7 +27,8 @@ TriangleShare triangle_share(const Vector3& point, const Vector3& a, const Vecto
 Vector mean_value_coordinates(const ConstPoints& positions, const ConstTriangles& triangles, const Vector3& point, bool one_side);
 
 /** Functions on a closed surface, extended to many points by one-sided coordinates. Distant triangles are treated in groups, each
- *  as one, on the side that the sum of their area vectors shows. Off by about 0.05% of the range of the values, 0.5% at most. */
+ *  as one, on the side that the sum of their area vectors shows. Inside off by about 0.05% of the range of the values, 0.5% at
+ * most; far outside, where whole bodies are one group that shows neither side, anything within the range. */
 class MeanValueField {
  public:
   /** `values` has one row per vertex. Copies what it needs; about 8 + (columns + 16)/2 floats per triangle on top of the mesh and
@@ -61,6 +62,7 @@ class MeanValueField {
   std::vector<std::uint32_t> order_;  // of the triangles, in the leaves
   std::vector<float> moments_;        // of each node: Σ A n f of every function, three rows of columns()
   std::vector<float> sums_;
+  std::vector<float> low_, high_;  // of each function: coordinates are never negative, so that what they carry lies between
 };
 
 }  // namespace handlebody
