@@ -308,6 +308,12 @@ TEST_CASE("a voxel volume is its own domain") {
     options.grid->origin[1] = -away;
     CHECK(bake(surface.positions, surface.triangles, options).code == HB_ERROR_INVALID_SHAPE);
   }
+  options.grid->origin[1] = .5;
+  options.voxels = {0};
+  for (const double spacing : {1e-9, 1e-100, 1e-308, 1e300}) {
+    options.grid->spacing = spacing;
+    CHECK(bake(surface.positions, surface.triangles, options).code == HB_ERROR_INVALID_SHAPE);
+  }
 }
 
 TEST_CASE("density draws centers: nine times as dense, a third as far apart") {

@@ -15,6 +15,8 @@ namespace {
 constexpr Index voxels_per_step = 1024;
 /** Diagonals of the body that a voxel inside may be away from its middle: what is farther is a volume of something else. */
 constexpr double farthest_voxel = 100;
+/** Diagonals of the body that a voxel measures at least: 64 million in a row would not be as long as it is. */
+constexpr double smallest_voxel = 1e-8;
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
@@ -59,6 +61,11 @@ Result<Grid> solver_grid(const Grid& model, const std::vector<std::uint32_t>& vo
                  {"Give each once, in rising order."});
   }
   const Grid grid{normalization.to_solver(model.origin), model.spacing / normalization.diagonal, model.dims};
+  if (!(grid.spacing >= smallest_voxel && grid.spacing <= farthest_voxel)) {
+    return Error(HB_ERROR_INVALID_SHAPE,
+                 {"The voxels are not those of this body: the edge of one is ", grid.spacing, " of its diagonal."},
+                 {"Give the volume's origin and spacing in the units of the vertices."});
+  }
   for (const std::uint32_t voxel : voxels) {
     const double away = grid.center(voxel).norm();
     if (away <= farthest_voxel) continue;
