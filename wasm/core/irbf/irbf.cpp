@@ -91,7 +91,7 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
 std::unique_ptr<const FrameKernel> Irbf::make_handle_kernel(const ReducedSystem& system) const {
   const Index columns = system.inverse.cols(), centers = prepared_->basis.size(), count = prepared_->psi.rows();
   const double products = static_cast<double>(count) * static_cast<double>(columns * (4 + centers));
-  if (count == 0 || columns >= centers || products >= most_handle_products) return nullptr;
+  if (count == 0 || columns == 0 || columns >= centers || products >= most_handle_products) return nullptr;
   MatrixF matrix(count, columns);
   MatrixXd parameters(std::min(count, vertices_at_once), 4 + centers);  // [x 1 Ψ], some vertices of it
   for (Index first = 0; first < count; first += vertices_at_once) {
