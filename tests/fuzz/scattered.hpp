@@ -21,7 +21,7 @@ struct Scattered {
   Scattered(Bytes& bytes, std::uint32_t of_dimension) {
     dimension = of_dimension > 0 && !bytes.wildly() ? of_dimension : bytes.byte() < 230 ? bytes.from_to(1, 3) : bytes.from_to(1, 8);
     outputs = bytes.byte() < 200 ? 1 : bytes.from_to(1, 3);
-    count = bytes.byte() < 240 ? bytes.from_to(1, 16) : bytes.from_to(1, 200);
+    count = bytes.byte() < 240 ? bytes.from_to(1, 16) : bytes.from_to(1, 150);
     points = bytes.numbers(count * dimension);
     values = bytes.numbers(count * outputs);
     switch (bytes.byte() % 16) {
