@@ -23,7 +23,7 @@ const AROUND = 0.8;
 const GRID = 1.1;
 
 /** An even mesh's vertices have this area in squares of the length of its edges: measured, since remesh() makes edges a bit short of asked. */
-const AREA_OF_VERTEX = 0.83;
+const AREA_OF_VERTEX = 0.78;
 
 /**
  * @param {Solid} solid

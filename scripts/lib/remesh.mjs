@@ -16,7 +16,7 @@
  * @param {number} [rounds]
  * @returns {{ positions: Float64Array, triangles: Uint32Array }} vertices and triangles renumbered
  */
-export function remesh(mesh, surface, rounds = 8) {
+export function remesh(mesh, surface, rounds = 6) {
   const work = new Working(mesh, surface);
   for (let round = 0; round < rounds; round++) {
     work.split();
