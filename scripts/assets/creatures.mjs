@@ -46,7 +46,8 @@ await runMain(async () => {
   const name = CREATURES.find((each) => each === positionals[0]);
   if (!name) throw new Error(`Which animal? One of: ${CREATURES.join(', ')}.`);
   const vertices = Number(values.vertices);
-  if (!(vertices >= 500 && vertices <= 100_000)) throw new Error(`${values.vertices} vertices were asked for; ask for 500 to 100000.`);
+  if (!(vertices >= 500 && vertices <= 100_000))
+    throw new Error(`${values.vertices} vertices were asked for; ask for 500 to 100000.`);
   const solid = creature(name);
   const mesh = await meshSolid(solid, { vertices });
   const { genus, smallestAngle, volume } = facts(mesh);

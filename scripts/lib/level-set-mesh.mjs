@@ -49,11 +49,27 @@ async function marched(solid) {
     min: /** @type {Point} */ (solid.low.map((value) => value - margin)),
     max: /** @type {Point} */ (solid.high.map((value) => value + margin)),
   };
-  const body = wasm.Manifold.levelSet(([x, y, z]) => -solid.distance(x, y, z), box, finest);
+  const body = wasm.Manifold.levelSet(insideOf(solid, 8 * finest), box, finest);
   const { numProp, vertProperties, triVerts, mergeFromVert } = body.getMesh();
   body.delete();
   if (numProp !== 3 || mergeFromVert.length > 0) throw new Error('Manifold gave vertices with more than places.');
   return { positions: vertProperties, triangles: triVerts };
+}
+
+/**
+ * What Manifold wants: positive inside. One value stands for all of a block that is far from the surface, where the sign alone counts.
+ * @param {Solid} solid @param {number} block
+ */
+function insideOf({ distance }, block) {
+  /** @type {Map<string, number>} */
+  const middles = new Map();
+  return (/** @type {Point} */ [x, y, z]) => {
+    const [i, j, k] = [Math.floor(x / block), Math.floor(y / block), Math.floor(z / block)];
+    const key = `${i} ${j} ${k}`;
+    const middle = middles.get(key) ?? distance((i + 0.5) * block, (j + 0.5) * block, (k + 0.5) * block);
+    middles.set(key, middle);
+    return Math.abs(middle) > 1.2 * block ? -middle : -distance(x, y, z);
+  };
 }
 
 /** @param {Solid} solid @returns {Omit<import('./remesh.mjs').Surface, 'size'>} */

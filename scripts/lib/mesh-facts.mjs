@@ -28,7 +28,17 @@ export function facts({ positions, triangles }) {
   const back = (/** @type {number} */ edge) => (edge % count) * count + Math.floor(edge / count);
   const unmatched = [...directed].filter(([edge, times]) => times !== 1 || directed.get(back(edge)) !== 1).length;
   const genus = 1 - (count - directed.size / 2 + triangles.length / 3) / 2;
-  return { unmatched, genus, parts: parts(triangles, Array.from({ length: count }, (_, v) => v)), volume, smallestAngle, smallestArea };
+  return {
+    unmatched,
+    genus,
+    parts: parts(
+      triangles,
+      Array.from({ length: count }, (_, v) => v),
+    ),
+    volume,
+    smallestAngle,
+    smallestArea,
+  };
 }
 
 /** How many connected parts some of a mesh's vertices make. @param {ArrayLike<number>} triangles @param {readonly number[]} vertices */

@@ -127,7 +127,13 @@ class Working {
       const { left, right, c, d } = pair;
       this.remove(left);
       this.remove(right);
-      for (const triangle of [[a, v, c], [v, b, c], [b, v, d], [v, a, d]]) this.add(/** @type {Point} */ (triangle));
+      for (const triangle of [
+        [a, v, c],
+        [v, b, c],
+        [b, v, d],
+        [v, a, d],
+      ])
+        this.add(/** @type {Point} */ (triangle));
     }
   }
 

@@ -1,10 +1,22 @@
 import { brontosaurus, elephant, giraffe, hippo, lizard } from './four-legged.ts';
 import { octopus } from './octopus.ts';
-import { type Limb, solid, type Solid } from './solid-field.ts';
+import { type Limb, type Solid, solid } from './solid-field.ts';
 import { acrobat, bird, craneFly, flamingo, starfish } from './two-many-legged.ts';
 
 /** Animals of very different builds, y upwards, heads towards x, on about y = 0 and two units large. */
-const RECIPES = { octopus, giraffe, brontosaurus, elephant, hippo, lizard, flamingo, bird, acrobat, starfish, 'crane fly': craneFly };
+const RECIPES = {
+  octopus,
+  giraffe,
+  brontosaurus,
+  elephant,
+  hippo,
+  lizard,
+  flamingo,
+  bird,
+  acrobat,
+  starfish,
+  'crane fly': craneFly,
+};
 
 type CreatureName = keyof typeof RECIPES;
 

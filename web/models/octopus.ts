@@ -14,9 +14,9 @@ const ARMS = [
 
 /** An octopus that sits on its arms: a mantle that leans back, and eight arms that taper, bend and curl at their ends. */
 export const octopus: Limb = {
-  fillet: 0.09,
+  fillet: 0.1,
   balls: [
-    [0.1, 0.3, 0, 0.22],
+    [0.1, 0.3, 0, 0.25],
     [0, 0.5, 0, 0.25],
     [-0.16, 0.8, 0.02, 0.36],
     [-0.34, 1.1, 0.03, 0.27],

@@ -54,7 +54,7 @@ export function solid(root: Limb): Solid {
       }
     }
     for (let i = 3; i < chain.length; i += 4) thinnest = Math.min(thinnest, (chain[i] as number) / (flat?.stretch ?? 1));
-    if (limb.tip) tips.set(limb.tip, endOf(chain));
+    if (limb.tip) tips.set(limb.tip, endOf(chain, flat));
   });
   return {
     distance: (x, y, z) => treeDistance(node, x, y, z, Infinity),
@@ -120,11 +120,14 @@ function curve(balls: readonly Ball[]): Float64Array {
 }
 
 /** Where the middle line, drawn on, leaves the last ball. */
-function endOf(chain: Float64Array): Point {
+function endOf(chain: Float64Array, flat: Flat | undefined): Point {
   const [x, y, z, radius] = chain.subarray(-4) as unknown as Ball;
-  const [bx, by, bz] = chain.length > 4 ? (chain.subarray(-8, -5) as unknown as Point) : [x, y - 1, z];
-  const scale = radius / Math.hypot(x - bx, y - by, z - bz);
-  return [x + (x - bx) * scale, y + (y - by) * scale, z + (z - bz) * scale];
+  const [bx, by, bz] = chain.subarray(-8, -5) as unknown as Point;
+  const [dx, dy, dz] = [x - bx, y - by, z - bz];
+  const [nx, ny, nz] = flat?.along ?? [0, 0, 0];
+  const more = (dx * nx + dy * ny + dz * nz) * ((flat?.stretch ?? 1) - 1);
+  const scale = radius / Math.hypot(dx + more * nx, dy + more * ny, dz + more * nz);
+  return [x + dx * scale, y + dy * scale, z + dz * scale];
 }
 
 function ballAround(chain: Float64Array, limbs: readonly Node[] = [], fillet = 0): Ball {
@@ -148,8 +151,8 @@ function treeDistance(node: Node, x: number, y: number, z: number, limit: number
   const own = chainDistance(node, x, y, z);
   if (node.limbs.length === 0) return own;
   const { fillet } = node;
-  // Neighbors flow into each other only as far out as the fillet with their common root reaches.
-  const between = fillet * Math.min(Math.max(1 - own / (2 * fillet), 0), 1);
+  // Neighbors flow into each other only as far out as their common root's fillets reach.
+  const between = fillet * Math.min(Math.max(1 - own / (3 * fillet), 0), 1);
   let grown = Infinity;
   for (const each of node.limbs) {
     const value = treeDistance(each, x, y, z, Math.min(own, limit, grown) + 2 * fillet);
@@ -228,7 +231,9 @@ function flatDistance(chain: Float64Array, { along, stretch }: Flat, x: number, 
 
 function nearestRadius(node: Node, x: number, y: number, z: number): { distance: number; radius: number } {
   const { distance, radius } = nearestPiece(node.chain, node.spans, x, y, z);
-  const own = node.flat ? { distance: flatDistance(node.chain, node.flat, x, y, z), radius: radius / node.flat.stretch } : { distance, radius };
+  const own = node.flat
+    ? { distance: flatDistance(node.chain, node.flat, x, y, z), radius: radius / node.flat.stretch }
+    : { distance, radius };
   return node.limbs.reduce((best, each) => {
     const other = nearestRadius(each, x, y, z);
     return other.distance < best.distance ? other : best;
