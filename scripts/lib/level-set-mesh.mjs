@@ -16,14 +16,14 @@ import { remesh } from './remesh.mjs';
 
 /** @typedef {{ positions: Float32Array, triangles: Uint32Array }} Grid */
 
-/** Edges are at most this long in the radius of the limb that they are on: about eight around it. */
-const AROUND = 0.8;
+/** Edges are at most this long in the radius of the limb that they are on: about six around it. */
+const AROUND = 1;
 
 /** The grid's edges in the radius of the thinnest limb. */
 const GRID = 1.1;
 
 /** An even mesh's vertices have this area in squares of the length of its edges: measured, since remesh() makes edges a bit short of asked. */
-const AREA_OF_VERTEX = 0.78;
+const AREA_OF_VERTEX = 0.685;
 
 /**
  * @param {Solid} solid

@@ -3,7 +3,7 @@ import { meshSolid } from '../../scripts/lib/level-set-mesh.mjs';
 import { facts, nearestVertex, parts } from '../../scripts/lib/mesh-facts.mjs';
 import { CREATURES, creature } from '../../web/models/creatures.ts';
 
-const VERTICES = 2500;
+const VERTICES = 3000;
 
 type Mesh = Awaited<ReturnType<typeof meshSolid>>;
 
