@@ -23,7 +23,7 @@ const AROUND = 1;
 const GRID = 1.1;
 
 /** An even mesh's vertices have this area in squares of the length of its edges: measured, since remesh() makes edges a bit short of asked. */
-const AREA_OF_VERTEX = 0.685;
+const AREA_OF_VERTEX = 0.89;
 
 /**
  * @param {Solid} solid

@@ -48,7 +48,7 @@ describe.each(CREATURES)('%s', (name) => {
     for (const [tip, place] of solid.tips) {
       const radius = solid.radius(...place);
       expect(Math.abs(solid.distance(...place)), tip).toBeLessThan(radius / 10);
-      const end = within(mesh, place, 2 * radius);
+      const end = within(mesh, place, 1.6 * radius);
       expect(parts(mesh.triangles, end), tip).toBe(1);
       // What lies around an end is a cap: all of its surface on one side, so that its middle is less than the ball's radius inside.
       const middle = [0, 1, 2].map((d) => end.reduce((sum, v) => sum + (mesh.positions[3 * v + d] as number), 0) / end.length);
