@@ -22,7 +22,7 @@ type CreatureName = keyof typeof RECIPES;
 
 export const CREATURES = Object.keys(RECIPES) as readonly CreatureName[];
 
-export interface Creature extends Solid {
+interface Creature extends Solid {
   readonly name: CreatureName;
 }
 

@@ -1,6 +1,6 @@
 /** Bodies in space as data: limbs are chains of balls, and a tree of limbs says which of them flow into each other. */
 
-export type Point = readonly [x: number, y: number, z: number];
+type Point = readonly [x: number, y: number, z: number];
 
 /** A place on a limb's middle line, and how thick the limb is there. */
 export type Ball = readonly [x: number, y: number, z: number, radius: number];
