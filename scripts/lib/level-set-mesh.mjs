@@ -87,14 +87,14 @@ function surfaceOf({ distance, thinnest }) {
       const length = Math.hypot(...g) || 1;
       return /** @type {Point} */ (g.map((value) => value / length));
     },
-    // Newton's method along the first gradient, since the way is short; no step is longer than a limb is thick, so that none lands on another limb.
+    // Newton's method, each step along the gradient where it is; no step is longer than a limb is thick, so that none lands on another limb.
     onto: (p) => {
       let at = p;
-      const g = gradient(p);
-      const squared = Math.max(dotted(g), 0.04);
-      for (let k = 0; k < 5; k++) {
+      for (let k = 0; k < 6; k++) {
         const value = distance(...at);
         if (Math.abs(value) < 1e-6) break;
+        const g = gradient(at);
+        const squared = Math.max(dotted(g), 0.04);
         const length = Math.max(-thinnest, Math.min(thinnest, value)) / squared;
         at = /** @type {Point} */ ([at[0] - length * g[0], at[1] - length * g[1], at[2] - length * g[2]]);
       }
