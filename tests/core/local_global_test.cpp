@@ -47,7 +47,7 @@ struct SmallSystem {
 
   /** The iterations, with the constraint points to be displaced so. */
   LocalGlobal iterations(const MatrixXd& displacements) const {
-    LocalGlobal made(edges, edge_scale);
+    LocalGlobal made(edges, edge_scale, SphereFit::rigid);
     made.set_system(hat);
     made.constraints() = mu * displacements;
     return made;
@@ -61,7 +61,7 @@ struct SmallSystem {
 };
 
 LocalGlobalReport run_from_rest(LocalGlobal& iterations, const LocalGlobalOptions& options) {
-  iterations.start(iterations.energy(iterations.rotations()));
+  iterations.start(iterations.energy(iterations.maps()));
   return iterations.run(options);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("handles moved as one body turn every sphere alike, at no energy (seed
   const LocalGlobalReport report = run_from_rest(iterations, options);
   CHECK(report.converged);
   CHECK(report.energy < 1e-10 * iterations.right_hand_side().squaredNorm());
-  for (const Matrix3& rotation : iterations.rotations()) CHECK((rotation - turn).norm() < 1e-7);
+  for (const Matrix3& rotation : iterations.maps()) CHECK((rotation - turn).norm() < 1e-7);
 }
 
 TEST_CASE(
@@ -117,7 +117,7 @@ TEST_CASE(
     const LocalGlobalReport report = run_from_rest(iterations, options);
     REQUIRE(report.converged);
     CHECK(report.change < 1e-11);
-    const std::vector<Matrix3> found = iterations.rotations();
+    const std::vector<Matrix3> found = iterations.maps();
     const MatrixXd image = system.hat * iterations.right_hand_side();
     for (Index b = 0; b < 5; ++b) {
       const auto edges = system.edges.middleRows(3 * b, 3);
@@ -147,7 +147,7 @@ TEST_CASE("accelerated iterations and plain ones find one minimum, and neither e
       options.max_iterations = 1;
       options.tolerance = 1e-9;
       options.accelerate = accelerate;
-      double last = iterations.energy(iterations.rotations());
+      double last = iterations.energy(iterations.maps());
       iterations.start(last);
       int count = 0;
       for (bool done = false; !done && count < 20000; ++count) {
@@ -177,7 +177,7 @@ TEST_CASE("cut up, the iterations are the same to the last bit (seed 169)") {
   LocalGlobalReport last = run_from_rest(parts, options);
   for (int k = 0; k < 2; ++k) last = parts.run(options);
   CHECK(last.energy == report.energy);
-  for (std::size_t b = 0; b < 5; ++b) CHECK(parts.rotations()[b] == whole.rotations()[b]);
+  for (std::size_t b = 0; b < 5; ++b) CHECK(parts.maps()[b] == whole.maps()[b]);
 }
 
 TEST_CASE("at rest there is nothing to do") {
@@ -188,5 +188,5 @@ TEST_CASE("at rest there is nothing to do") {
   CHECK(report.iterations == 1);
   CHECK(report.energy == doctest::Approx(0));
   CHECK(report.change < 1e-14);
-  for (const Matrix3& rotation : iterations.rotations()) CHECK((rotation - Matrix3::Identity()).norm() < 1e-14);
+  for (const Matrix3& rotation : iterations.maps()) CHECK((rotation - Matrix3::Identity()).norm() < 1e-14);
 }

@@ -89,7 +89,7 @@ FUZZ(bytes) {
   require(hb_bake_body(bake.get(), &body) == HB_OK, "a finished bake has a body");
   require(body.vertex_count == mesh.vertex_count() && body.center_count > 0 && body.sphere_count > 0 && body.voxel_count > 0,
           "a body has all its parts");
-  const hb_irbf_options options{2, 1e-6, 100, -1, 1, 5, 0, 2, 0, bytes.below(2)};
+  const hb_irbf_options options{2, 1e-6, 100, -1, 1, 5, 0, 2, 0, bytes.below(2), 0};
   Owned<hb_irbf_free> irbf;
   require(irbf.make([&](hb_irbf** out) { return hb_irbf_create(&body, &options, out); }), "IRBF takes every body that was baked");
 }

@@ -98,7 +98,7 @@ void make_body(Bytes& bytes, MadeBody& made) {
 }
 
 hb_irbf_options choose(Bytes& bytes) {
-  hb_irbf_options options{2, 0, 100, -1, 1, 5, 0, 2, 0, 0};
+  hb_irbf_options options{2, 0, 100, -1, 1, 5, 0, 2, 0, 0, 0};
   if (bytes.flip()) options.relative_width = bytes.positive();
   if (bytes.flip()) options.smoothness = bytes.positive() * (bytes.flip() ? 1e-6 : 1);
   if (bytes.byte() < 60) options.anchor_weight = bytes.positive() * 100, options.edge_exponent = bytes.number();
@@ -108,6 +108,7 @@ hb_irbf_options choose(Bytes& bytes) {
   options.order = static_cast<std::int32_t>(bytes.option(2, 4));
   options.constraints = bytes.option(0, 1);
   options.precision = bytes.option(0, 1);
+  options.sphere_fit = bytes.byte() < 60 ? bytes.option(0, 1) : 0;
   return options;
 }
 
@@ -123,10 +124,14 @@ std::uint32_t set_handles(Bytes& bytes, const Mesh& mesh, hb_irbf* irbf) {
   return worked(hb_irbf_set_handles(irbf, points.data(), kinds.data(), bytes.count(count))) ? count : 0;
 }
 
-void move(Bytes& bytes, hb_irbf* irbf, std::uint32_t handles) {
+void move(Bytes& bytes, hb_irbf* irbf, std::uint32_t handles, std::uint32_t spheres) {
   double* const targets = hb_irbf_targets(irbf);
   for (std::uint32_t i = 0; i < 10 * handles; ++i)
     if (bytes.byte() < 60) targets[i] += bytes.number() / 4;
+  double* const shapes = hb_irbf_shapes(irbf);
+  if (bytes.byte() < 60)
+    for (std::uint32_t i = 0; i < 9 * spheres; ++i)
+      if (bytes.byte() < 60) shapes[i] += bytes.number() / 8;
   hb_irbf_report report;
   const std::uint32_t iterations = bytes.option(0, 20);
   // A million iterations are done where they are asked for: these end at once.
@@ -173,7 +178,7 @@ FUZZ(bytes) {
   hb_irbf* now = irbf.get();
   for (std::uint32_t rounds = bytes.from_to(1, 3); rounds > 0; --rounds) {
     if (const std::uint32_t handles = set_handles(bytes, made.mesh, now))
-      for (std::uint32_t moves = bytes.from_to(1, 3); moves > 0; --moves) move(bytes, now, handles);
+      for (std::uint32_t moves = bytes.from_to(1, 3); moves > 0; --moves) move(bytes, now, handles, made.body.sphere_count);
     read(bytes, made.mesh, now);
     if (!shared.get() && bytes.byte() < 60) {
       require(shared.make([&](hb_irbf** out) { return hb_irbf_share(irbf.get(), out); }), "every deformation can be shared");

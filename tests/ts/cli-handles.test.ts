@@ -7,7 +7,10 @@ import { parseHandles } from '../../web/cli/handles.ts';
 const SEED = 61;
 
 const parse = (value: unknown) =>
-  parseHandles(new TextEncoder().encode(typeof value === 'string' ? value : JSON.stringify(value)), { vertexCount: 10 });
+  parseHandles(new TextEncoder().encode(typeof value === 'string' ? value : JSON.stringify(value)), {
+    vertexCount: 10,
+    sphereCount: 3,
+  });
 
 function errorOf(value: unknown): HandlebodyError {
   try {
@@ -20,6 +23,28 @@ function errorOf(value: unknown): HandlebodyError {
 }
 
 describe('parseHandles', () => {
+  it('reads shapes of spheres and how they fit, and names what is wrong with them', () => {
+    const handles = [{ vertex: 0, to: [0, 0, 0] }];
+    const shape = [2, 0, 0, 0, 1, 0, 0, 0, 1];
+    const { shapes, options } = parse({ handles, sphereFit: 'similarity', shapes: { 2: shape } });
+    expect(options).toEqual({ sphereFit: 'similarity' });
+    expect(shapes).toEqual([[2, shape]]);
+    expect(parse({ handles }).shapes).toEqual([]);
+    for (const [wrong, word] of [
+      [{ shapes: { 3: shape } }, /sphere "3".*3 spheres/],
+      [{ shapes: { '-1': shape } }, /sphere "-1"/],
+      [{ shapes: { '1e0': shape } }, /sphere "1e0"/],
+      [{ shapes: { 1: [1, 2, 3] } }, /shapes\.1/],
+      [{ shapes: { 1: [...shape.slice(1), null] } }, /shapes\.1/],
+      [{ shapes: [shape] }, /shapes/],
+      [{ sphereFit: 'round' }, /sphereFit "round"/],
+    ] as const) {
+      const error = errorOf({ handles, ...wrong });
+      expect(error.code).toBe('handles-invalid');
+      expect(error.message).toMatch(word);
+    }
+  });
+
   it('reads places, targets and options', () => {
     const { handles, targets, options } = parse({
       handles: [

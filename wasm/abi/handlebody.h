@@ -147,6 +147,7 @@ typedef struct hb_irbf_options {
   int32_t order;         /* of polyharmonic */
   uint32_t constraints;  /* 0 soft (appendix), 1 hard (§4.6) */
   uint32_t precision;    /* of hb_irbf_deform: 0 for 16-bit fixed point, 1 for float */
+  uint32_t sphere_fit;   /* of eq. (8): 0 for each sphere's closest rigid map, 1 for its closest similarity (§4.5), which may grow */
 } hb_irbf_options;
 
 /* What the last hb_irbf_solve did. */
@@ -189,9 +190,13 @@ HB_API const double* hb_irbf_positions(const hb_irbf* irbf);
 /* 10 numbers per handle: position xyz (model units), quaternion xyzw, scale xyz. Write it in place. */
 HB_API double* hb_irbf_targets(hb_irbf* irbf);
 
+/* 9 numbers per sphere of the body: the rows of a linear map of the sphere at rest, which it is to have the shape of, up to its own turn
+ * (eq. (11)); the identity at first, which keeps it. Write it in place; the next hb_irbf_solve reads it. */
+HB_API double* hb_irbf_shapes(hb_irbf* irbf);
+
 /* Local/global iterations from where the last solve stopped, until no sphere edge moves more than `tolerance` (solver space) or
  * `max_iterations` are done; `accelerate` 1 for Anderson acceleration, 0 for plain iterations. Fails with TARGET_NOT_FINITE,
- * HANDLE_CONFLICT or HANDLES_MISSING and keeps the last solution. */
+ * HANDLE_CONFLICT, SHAPE_INVERTED (culprit: the sphere) or HANDLES_MISSING and keeps the last solution. */
 HB_API int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report);
 
 /* Deformed positions (vertex_count × 3, model units) of all vertices as stored, and normals when `normals` is not NULL: `rest_normals`

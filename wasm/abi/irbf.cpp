@@ -49,10 +49,10 @@ extern "C" {
 
 int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irbf** out) {
   handlebody::making();
-  if (given->constraints > 1 || given->precision > 1 || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
+  if (given->constraints > 1 || given->precision > 1 || given->sphere_fit > 1 || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
       given->order < 2 || given->order > 8) {
     return fail({HB_ERROR_INVALID_OPTION,
-                 {"The number of a kernel, its order, the constraints or the precision is unknown."},
+                 {"The number of a kernel, its order, the constraints, the precision or the fit of spheres is unknown."},
                  {"Use those that the header lists."},
                  HB_CULPRIT_OPTION});
   }
@@ -87,6 +87,7 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   options.edge_exponent = given->edge_exponent;
   options.constraints = static_cast<handlebody::ConstraintKind>(given->constraints);
   options.precision = static_cast<handlebody::FramePrecision>(given->precision);
+  options.sphere_fit = static_cast<handlebody::SphereFit>(given->sphere_fit);
   auto irbf = Irbf::create(std::move(body), options);
   if (!irbf) return fail(irbf.error());
   *out = new hb_irbf{std::move(*irbf)};
@@ -115,6 +116,10 @@ const double* hb_irbf_positions(const hb_irbf* irbf) {
 
 double* hb_irbf_targets(hb_irbf* irbf) {
   return irbf->irbf->targets();
+}
+
+double* hb_irbf_shapes(hb_irbf* irbf) {
+  return irbf->irbf->shapes();
 }
 
 int32_t hb_irbf_solve(hb_irbf* irbf, uint32_t max_iterations, double tolerance, uint32_t accelerate, hb_irbf_report* report) {

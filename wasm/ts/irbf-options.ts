@@ -16,6 +16,7 @@ export const IRBF_DEFAULTS = {
   support: 4,
   order: 2,
   precision: 'fixed',
+  sphereFit: 'rigid',
 } as const;
 
 const RADIAL = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate') as IrbfKernel[];
@@ -30,6 +31,7 @@ const READERS = {
   support: positive,
   order: whole(2, 8),
   precision: named(['fixed', 'float']),
+  sphereFit: named(['rigid', 'similarity']),
   onWarning: callback,
 } satisfies Readers<IrbfOptions>;
 
@@ -56,5 +58,6 @@ export function writeOptions(heap: Heap, scratch: Scratch, how: ResolvedIrbf, ho
   words[layout.order / 4] = how.order;
   words[layout.constraints / 4] = how.constraints === 'hard' ? 1 : 0;
   words[layout.precision / 4] = how.precision === 'float' ? 1 : 0;
+  words[layout.sphere_fit / 4] = how.sphereFit === 'similarity' ? 1 : 0;
   return at;
 }

@@ -67,6 +67,7 @@ export class Irbf {
   #solved: SolveReport = { energy: 0, anchorError: 0, change: 0, iterations: 0, converged: false };
   #handles = 0;
   #targets = new Float64Array();
+  readonly #shapes: Float64Array;
   /** 1 for a handle that turns and scales. */
   #kinds = new Uint32Array();
   #hasRestNormals = false;
@@ -75,7 +76,7 @@ export class Irbf {
   constructor(
     heap: Heap,
     body: BodyData,
-    vertexCount: number,
+    { vertices, spheres }: { vertices: number; spheres: number },
     irbf: number,
     hostKernel: number,
     warn: (warning: IrbfWarning) => void,
@@ -84,11 +85,13 @@ export class Irbf {
     this.#heap = heap;
     this.#body = body;
     // Allocated once, so that a frame allocates nothing.
-    this.#length = 3 * vertexCount;
+    this.#length = 3 * vertices;
     const bytes = this.#length * 4;
     const blocks = [bytes, bytes, bytes, LAYOUT.hb_irbf_report.sizeof];
     this.#owned = heap.own(this, 'hb_irbf_free', irbf, { blocks, kernel: hostKernel });
     [this.#positions = 0, this.#normals = 0, this.#restNormals = 0, this.#report = 0] = this.#owned.blocks;
+    this.#shapes = new Float64Array(9 * spheres);
+    this.#shapes.set(this.#shapesInSolver());
   }
 
   /** What was given. This deforms what that was then: arrays that change later do not change it. */
@@ -111,6 +114,19 @@ export class Irbf {
    */
   get targets(): Float64Array {
     return this.#targets;
+  }
+
+  /**
+   * What shape the spheres are to take (§2.4, eq. (11)): 9 numbers a sphere, the rows of a linear map of the sphere at rest, which may turn
+   * as it likes; the identity, as it is at first, keeps the sphere. A larger one inflates, a diagonal scales along axes. Write it in place,
+   * then `solve()`.
+   *
+   * ```ts
+   * irbf.shapes.set([1.5, 0, 0, 0, 1, 0, 0, 0, 1], 9 * sphere); // longer along x by a half
+   * ```
+   */
+  get shapes(): Float64Array {
+    return this.#shapes;
   }
 
   /** Sets which points are held. Builds and factors the system; every target starts at rest. The former handles stay on failure. */
@@ -150,8 +166,8 @@ export class Irbf {
 
   /**
    * Local/global iterations from where the last call stopped: a few in every frame keep a drag smooth, and go on converging when it
-   * rests. On bad targets it throws and the last solution stays: 'target-not-finite' also where the model, grown by a scale, is
-   * beyond what floats can hold.
+   * rests. On bad targets or shapes it throws and the last solution stays: 'target-not-finite' also where the model, grown by a scale, is
+   * beyond what floats can hold, 'shape-inverted' for a shape that turns its sphere inside out.
    */
   solve(options: SolveOptions = {}): SolveReport {
     const heap = this.#heap;
@@ -168,6 +184,7 @@ export class Irbf {
     const given = heap.f64(targets, this.#targets.length);
     given.set(this.#targets);
     if (this.#origin) shiftRows(given, this.#origin, FROM_MODEL);
+    this.#shapesInSolver().set(this.#shapes);
     heap.check((e) => e.hb_irbf_solve(irbf, maxIterations, tolerance, accelerate ? 1 : 0, this.#report));
     const layout = LAYOUT.hb_irbf_report;
     const numbers = heap.f64(this.#report, 3);
@@ -288,7 +305,9 @@ export class Irbf {
     });
     const { kernel } = this.#owned;
     heap.kernels.share(kernel);
-    return bound(new Irbf(heap, this.#body, this.vertexCount, shared, kernel, this.#warn));
+    return bound(
+      new Irbf(heap, this.#body, { vertices: this.vertexCount, spheres: this.#shapes.length / 9 }, shared, kernel, this.#warn),
+    );
   }
 
   /** Gives the memory back. Calling it again does nothing; calling anything else afterwards throws 'disposed'. */
@@ -303,6 +322,15 @@ export class Irbf {
   /** What the body is relative to: all that the solver sees. */
   get #origin(): Vec3 | undefined {
     return this.#body.mesh.origin;
+  }
+
+  /** A view, until memory grows. */
+  #shapesInSolver(): Float64Array {
+    const { pointer } = this.#owned;
+    return this.#heap.f64(
+      this.#heap.call((e) => e.hb_irbf_shapes(pointer)),
+      this.#shapes.length,
+    );
   }
 
   #alive(): number {
@@ -336,7 +364,8 @@ export function createIrbf(heap: Heap, given: BodyData, how: IrbfOptions): Irbf 
     heap.kernels.remove(hostKernel);
     throw error;
   }
-  return new Irbf(heap, given, body.mesh.positions.length / 3, irbf, hostKernel, options.onWarning);
+  const counts = { vertices: body.mesh.positions.length / 3, spheres: body.spheres.length / 4 };
+  return new Irbf(heap, given, counts, irbf, hostKernel, options.onWarning);
 }
 
 /** Runs what calls the kernel. Where that is the caller's and failed, its own error is thrown, which says more. */

@@ -174,6 +174,8 @@ export interface IrbfOptions {
   readonly order?: number;
   /** Arithmetic of `deform`: 16-bit fixed point, to some 1e-5 of the diagonal, or float, the reference, which takes twice as long. */
   readonly precision?: 'fixed' | 'float';
+  /** What spheres keep: 'rigid' their size and shape (eq. (8)), 'similarity' their shape only (§4.5), so that handles may scale the model. */
+  readonly sphereFit?: 'rigid' | 'similarity';
   /** Called by `setHandles` where handles leave something free. By default it goes to the console. */
   readonly onWarning?: (warning: IrbfWarning) => void;
 }

@@ -41,7 +41,8 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   const { ranges } = readMesh(document, { reading: body.mesh.reading ?? {} });
   const { origin } = body.mesh;
   const vertexCount = body.mesh.positions.length / 3;
-  const { handles, targets, options } = await readHandles(handlesName, vertexCount);
+  const sphereCount = body.spheres.length / 4;
+  const { handles, targets, options, shapes } = await readHandles(handlesName, { vertexCount, sphereCount });
   clock.lap('read');
 
   const hb = await load({ signal });
@@ -53,6 +54,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   });
   clock.lap('prepare');
   irbf.targets.set(targets);
+  for (const [sphere, shape] of shapes) irbf.shapes.set(shape, 9 * sphere);
   const solved = fromHandles(handlesName, () => irbf.solve({ maxIterations: MAX_ITERATIONS }));
   clock.lap('solve');
   const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3), origin };
@@ -123,14 +125,16 @@ function fromHandles<T>(name: string, work: () => T): T {
     if (!(error instanceof HandlebodyError)) throw error;
     const { code, message, remedy, culprit } = error;
     const refused = code === 'invalid-option' ? new HandlebodyError('handles-invalid', { message, remedy, cause: error }) : error;
-    throw culprit?.kind === 'handle' || code === 'target-not-finite' || refused !== error ? naming(name, refused) : error;
+    throw culprit?.kind === 'handle' || culprit?.kind === 'sphere' || code === 'target-not-finite' || refused !== error
+      ? naming(name, refused)
+      : error;
   }
 }
 
-async function readHandles(name: string, vertexCount: number) {
+async function readHandles(name: string, counts: { vertexCount: number; sphereCount: number }) {
   const bytes = await readInput(name);
   try {
-    return parseHandles(bytes, { vertexCount });
+    return parseHandles(bytes, counts);
   } catch (error) {
     throw naming(name, error);
   }

@@ -2,7 +2,8 @@
  * HANDLES.json, in the model's own units:
  *
  *   { "handles": [{ "vertex": 120 } or { "at": [x,y,z] }, with "to": [x,y,z], "rotation"?: [x,y,z,w], "scale"?: [x,y,z] }],
- *     "relativeWidth"?: number, "smoothness"?: number or "auto" }
+ *     "relativeWidth"?: number, "smoothness"?: number or "auto", "sphereFit"?: "rigid" or "similarity",
+ *     "shapes"?: { a sphere's number: [9 numbers, the rows of a linear map that it is to be stretched by] } }
  *
  * Every word of it is checked: one that is misspelt would otherwise be silently without effect.
  */
@@ -15,14 +16,23 @@ interface HandlesFile {
   readonly handles: readonly Handle[];
   /** 10 numbers a handle, as `Irbf.targets` takes them. */
   readonly targets: Float64Array;
-  readonly options: { readonly relativeWidth?: number; readonly smoothness?: number | 'auto' };
+  readonly options: {
+    readonly relativeWidth?: number;
+    readonly smoothness?: number | 'auto';
+    readonly sphereFit?: 'rigid' | 'similarity';
+  };
+  /** Sphere and nine numbers, as `Irbf.shapes` takes them. */
+  readonly shapes: readonly (readonly [number, readonly number[]])[];
 }
 
-const TOP = ['handles', 'relativeWidth', 'smoothness'];
+const TOP = ['handles', 'relativeWidth', 'smoothness', 'sphereFit', 'shapes'];
 const KEYS = ['vertex', 'at', 'to', 'rotation', 'scale'];
 
 /** Throws 'file-invalid' for what is no JSON, 'handles-invalid', 'handle-*' or 'target-not-finite' naming the handle. */
-export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: number }): HandlesFile {
+export function parseHandles(
+  bytes: Uint8Array,
+  { vertexCount, sphereCount = 0 }: { vertexCount: number; sphereCount?: number },
+): HandlesFile {
   const file = parseJson(bytes);
   if (!isObject(file)) throw invalid('should be an object: { "handles": [...] }.');
   const stray = Object.keys(file).find((key) => !TOP.includes(key));
@@ -35,13 +45,32 @@ export function parseHandles(bytes: Uint8Array, { vertexCount }: { vertexCount: 
     targets.set(target, index * 10);
     return handle;
   });
-  const { relativeWidth, smoothness } = file;
+  const { relativeWidth, smoothness, sphereFit } = file;
   if (relativeWidth !== undefined && !(isNumber(relativeWidth) && relativeWidth > 0))
     throw invalid(`has the relativeWidth ${show(relativeWidth)}, which should be a number above 0.`);
   if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness > 0))
     throw invalid(`has the smoothness ${show(smoothness)}, which should be a number above 0, or "auto".`);
-  const options = { ...(relativeWidth !== undefined && { relativeWidth }), ...(smoothness !== undefined && { smoothness }) };
-  return { handles, targets, options: options as HandlesFile['options'] };
+  if (sphereFit !== undefined && sphereFit !== 'rigid' && sphereFit !== 'similarity')
+    throw invalid(`has the sphereFit ${show(sphereFit)}, which should be "rigid" or "similarity".`);
+  const options = {
+    ...(relativeWidth !== undefined && { relativeWidth }),
+    ...(smoothness !== undefined && { smoothness }),
+    ...(sphereFit && { sphereFit }),
+  };
+  const shapes = parseShapes(file.shapes, sphereCount);
+  return { handles, targets, options: options as HandlesFile['options'], shapes };
+}
+
+function parseShapes(shapes: unknown, sphereCount: number): HandlesFile['shapes'] {
+  if (shapes === undefined) return [];
+  if (!isObject(shapes)) throw invalid(`has the shapes ${show(shapes)}, which should be an object: { "0": [nine numbers] }.`);
+  return Object.entries(shapes).map(([name, numbers]) => {
+    const sphere = Number(name);
+    if (!/^\d+$/.test(name) || sphere >= sphereCount)
+      throw invalid(`has a shape for sphere ${show(name)}, and the body has ${sphereCount} spheres, from 0 on (shapes).`);
+    if (Array.isArray(numbers) && numbers.length === 9 && numbers.every(isNumber)) return [sphere, numbers] as const;
+    throw invalid(`has no nine numbers for the shape of sphere ${sphere} (shapes.${sphere}).`);
+  });
 }
 
 function parseHandle(entry: unknown, index: number, vertexCount: number): { handle: Handle; target: number[] } {

@@ -70,11 +70,13 @@ HANDLES.json, in the model's own units after its nodes' transforms:
       { "vertex": 120, "to": [0.1, 0.6, 0] },
       { "at": [0, 0.5, 0], "to": [0, 0.5, 0], "rotation": [0, 0, 0.383, 0.924], "scale": [1, 1, 1] }
     ],
-    "relativeWidth": 2, "smoothness": "auto" }
+    "relativeWidth": 2, "smoothness": "auto", "sphereFit": "rigid",
+    "shapes": { "7": [1.5, 0, 0, 0, 1, 0, 0, 0, 1] } }
 
 A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ, PLY and OFF, in the order of the
 file; in STL, in the order in which places come first) or at any point inside, and goes to "to". "rotation" (a quaternion x, y, z, w) and
-"scale" are kept free where neither is given. The output is no longer the shape that was baked, and carries no interior distances. A
+"scale" are kept free where neither is given. "shapes" gives spheres another shape: the rows of a linear map of the sphere at rest.
+With "sphereFit": "similarity" spheres may grow. The output is no longer the shape that was baked, and carries no interior distances. A
 skinned model's rest shape is deformed, before skinning.
 
 ${EXIT_CODES}`,

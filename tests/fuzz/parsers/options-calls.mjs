@@ -321,6 +321,7 @@ export const CALLS = {
         support: 4,
         order: 2 + random.below(3),
         precision: random.pick(['fixed', 'float']),
+        sphereFit: random.pick(['rigid', 'similarity']),
       });
       const handles = [
         { vertex: 0 },

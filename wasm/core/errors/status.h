@@ -38,6 +38,7 @@ typedef enum hb_status {
   HB_ERROR_TARGET_NOT_FINITE = 64,
   HB_ERROR_HANDLES_MISSING = 65, /* solve() before any handle was set */
   HB_ERROR_WEIGHTS_MISSING = 66, /* a vertex whose weights are all 0 */
+  HB_ERROR_SHAPE_INVERTED = 67,  /* a sphere's target shape turns it inside out */
 
   /* pose spaces and scattered data */
   HB_ERROR_EXAMPLE_DUPLICATE = 80, /* two examples at one place with different shapes */
@@ -80,7 +81,8 @@ typedef enum hb_culprit {
   HB_CULPRIT_BYTE = 7,
   HB_CULPRIT_POINT = 8,
   HB_CULPRIT_QUERY = 9,
-  HB_CULPRIT_TETRAHEDRON = 10
+  HB_CULPRIT_TETRAHEDRON = 10,
+  HB_CULPRIT_SPHERE = 11
 } hb_culprit;
 
 #endif

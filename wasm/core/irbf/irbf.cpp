@@ -17,6 +17,8 @@ namespace {
 
 /** Rows of Ψ that are turned into doubles for a product. */
 constexpr Index vertices_at_once = 256;
+/** Of a sphere's shape: numbers beyond this, and volumes below that part, are no shapes that solving could reach. */
+constexpr double largest_stretch = 1000, least_volume = 1e-6;
 
 }  // namespace
 
@@ -32,10 +34,13 @@ Irbf::Irbf(std::shared_ptr<const PreparedBody> body)
       deformed_(prepared_->rest),
       deformed_normals_(prepared_->rest.rows(), 3),
       frame_(prepared_->kernel->scratch()),
-      local_global_(prepared_->edges, prepared_->edge_scale),
-      rotations_(local_global_.rotations()),
+      local_global_(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit),
+      shapes_(prepared_->body.spheres.size() * shape_size),
+      maps_(local_global_.maps()),
       coefficients_(Matrix::Zero(prepared_->basis.size(), 3)) {
-  work_.warm = rotations_;
+  work_.warm = maps_;
+  for (std::size_t s = 0; s < shapes_.size(); s += shape_size) shapes_[s] = shapes_[s + 4] = shapes_[s + 8] = 1;
+  work_.solved_shapes = shapes_;
 }
 
 // ---- handles ----------------------------------------------------------------------------------------------------------------
@@ -68,8 +73,10 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   work.missed.resize(constraints->rows().rows(), 3);
   work.warm = work_.warm;
   work.solved_targets.reserve(targets.size());
-  LocalGlobal local_global(prepared_->edges, prepared_->edge_scale);
-  local_global.rotations() = local_global_.rotations();
+  work.solved_shapes = work_.solved_shapes;
+  LocalGlobal local_global(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit);
+  local_global.shape(work.solved_shapes.data());
+  local_global.maps() = local_global_.maps();
   if (!kinds.empty()) local_global.set_system(system.hat);
 
   handle_kernel_ = std::move(kernel);
@@ -106,40 +113,73 @@ std::unique_ptr<const FrameKernel> Irbf::make_handle_kernel(const ReducedSystem&
 
 // ---- solving ----------------------------------------------------------------------------------------------------------------
 
+Result<Done> Irbf::check_shapes() const {
+  for (std::size_t s = 0; s < shapes_.size(); s += shape_size) {
+    const Eigen::Map<const Matrix3> shape(&shapes_[s]);  // transposed, which changes neither size nor determinant
+    const auto sphere = static_cast<std::int64_t>(s / shape_size);
+    if (!(shape.array().abs() <= largest_stretch).all()) {  // not by maxCoeff(), which may pass over NaN
+      return Error(HB_ERROR_TARGET_NOT_FINITE,
+                   {"The shape of sphere ", sphere, " has a number that is not finite, or beyond 1000."},
+                   {"Use a linear map near the identity, which keeps the sphere."}, HB_CULPRIT_SPHERE, sphere);
+    }
+    const double volume = shape.determinant();
+    if (volume >= least_volume) continue;
+    return Error(HB_ERROR_SHAPE_INVERTED,
+                 {"The shape of sphere ", sphere, " turns it inside out or flat: its determinant is ", volume, "."},
+                 {"Use a linear map with a positive determinant, 0.000001 at least."}, HB_CULPRIT_SPHERE, sphere);
+  }
+  return Done{};
+}
+
+/** Sets out for new targets or shapes, in the frame that is carried along with the handles. */
+void Irbf::begin(const RigidMotion& frame) {
+  LocalGlobal& iteration = local_global_;
+  const Points& points = constraints_.points();
+  const Matrix3& turn = frame.rotation;
+  double along = 0, square = 0;  // of the handles' places and their targets, for the scale that goes with the frame
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vector3 arm = points.row(i).transpose() - frame.from;
+    const Vector3 moved = turn.transpose() * (work_.targets.row(i).transpose() - frame.to);
+    work_.displacements.row(i) = (moved - arm).transpose();
+    along += arm.dot(moved);
+    square += arm.squaredNorm();
+  }
+  constraints_.right_hand_side(work_.displacements, system_.weight, iteration.constraints());
+  if (work_.solved_shapes != shapes_) {
+    iteration.shape(shapes_.data());
+    work_.solved_shapes = shapes_;
+  }
+
+  // Start from the last maps, unless carrying the rest shape along is clearly better: rigidly, or as large as the handles say.
+  const bool grows = prepared_->options.sphere_fit == SphereFit::similarity && along > 0 && square > 0;
+  std::vector<Matrix3>& maps = iteration.maps();
+  iteration.rest(grows ? along / square : 1);
+  double energy = iteration.energy(maps);
+  if (solved_) {
+    for (std::size_t b = 0; b < maps_.size(); ++b) work_.warm[b] = turn.transpose() * maps_[b];
+    const double warm_energy = iteration.energy(work_.warm);
+    const bool warm = warm_energy < 2 * energy;
+    if (warm) maps.swap(work_.warm);
+    energy = warm ? warm_energy : iteration.energy(maps);
+  }
+  iteration.start(energy);
+  work_.solved_targets = targets_;
+}
+
 Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   if (handle_count() == 0) {
     return Error(HB_ERROR_HANDLES_MISSING, {"There are no handles to solve for."}, {"Set at least one handle first."});
   }
   if (auto read = constraints_.read_targets(targets_.data(), prepared_->body.normalization, work_.targets); !read)
     return read.error();
+  if (auto checked = check_shapes(); !checked) return checked.error();
 
   // Rigid motions do not change the energy, so the solve happens in a frame that is carried along rigidly with the handles: the
   // unknown there is only the deformation, and it is exactly zero when the handles move rigidly.
-  const Points& points = constraints_.points();
-  const RigidMotion frame = closest_rigid_motion(points, work_.targets);
+  const RigidMotion frame = closest_rigid_motion(constraints_.points(), work_.targets);
   const Matrix3& turn = frame.rotation;
   LocalGlobal& iteration = local_global_;
-  if (work_.solved_targets != targets_) {
-    for (Index i = 0; i < points.rows(); ++i) {
-      const Vector3 local = turn.transpose() * (work_.targets.row(i).transpose() - frame.to) + frame.from;
-      work_.displacements.row(i) = local.transpose() - points.row(i);
-    }
-    constraints_.right_hand_side(work_.displacements, system_.weight, iteration.constraints());
-
-    // Start from the last rotations, unless carrying the rest shape along rigidly is clearly better.
-    std::vector<Matrix3>& rotations = iteration.rotations();
-    std::fill(rotations.begin(), rotations.end(), Matrix3::Identity());
-    double energy = iteration.energy(rotations);
-    if (solved_) {
-      for (std::size_t b = 0; b < rotations_.size(); ++b) work_.warm[b] = turn.transpose() * rotations_[b];
-      const double warm_energy = iteration.energy(work_.warm);
-      const bool warm = warm_energy < 2 * energy;
-      if (warm) rotations.swap(work_.warm);
-      energy = warm ? warm_energy : iteration.energy(rotations);
-    }
-    iteration.start(energy);
-    work_.solved_targets = targets_;
-  }
+  if (work_.solved_targets != targets_ || work_.solved_shapes != shapes_) begin(frame);
   const LocalGlobalReport done = iteration.run({options.max_iterations, options.tolerance, options.accelerate});
 
   for (Index axis = 0; axis < 3; ++axis) {
@@ -150,7 +190,7 @@ Result<SolveReport> Irbf::solve(const SolveOptions& options) {
   linear_ = turn * (Matrix3::Identity() + work_.solution.topRows<3>().transpose()) - Matrix3::Identity();
   translation_ = frame.to + turn * (work_.solution.row(3).transpose() - frame.from);
   coefficients_.noalias() = work_.solution.bottomRows(prepared_->basis.size()) * turn.transpose();
-  for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = turn * iteration.rotations()[b];
+  for (std::size_t b = 0; b < maps_.size(); ++b) maps_[b] = turn * iteration.maps()[b];
   solved_ = true;
   by_handles_ = handle_kernel_ != nullptr;
   if (by_handles_) {

@@ -10,6 +10,7 @@
 #include "core/irbf/handle_constraints.hpp"
 #include "core/irbf/local_global.hpp"
 #include "core/irbf/prepared_body.hpp"
+#include "core/numerics/closest_rotation.hpp"
 
 namespace handlebody {
 
@@ -30,6 +31,7 @@ struct SolveReport {
 class Irbf {
  public:
   static constexpr Index target_size = HandleConstraints::target_size;
+  static constexpr Index shape_size = 9;
 
   /** Of a body that is prepared for it. Fails as PreparedBody::create does. */
   static Result<std::unique_ptr<Irbf>> create(Body body, const IrbfOptions& options);
@@ -48,8 +50,13 @@ class Irbf {
   /** target_size numbers per handle, in model units; at rest after set_handles. Written in place by the caller. */
   double* targets() { return targets_.data(); }
 
+  /** What each sphere is to become, eq. (11): the rows of a linear map S of its edges at rest, shape_size numbers. The identity at
+   *  first; written in place by the caller, read by solve(). */
+  double* shapes() { return shapes_.data(); }
+
   /** Local/global iterations from the last solution until no sphere edge moves more than the tolerance. Goes on where it stopped
-   *  when the targets are still the same. On failure the last solution stays. */
+   *  when targets and shapes are still the same. Fails with HANDLES_MISSING, TARGET_NOT_FINITE, HANDLE_CONFLICT or SHAPE_INVERTED;
+   * the last solution stays then. */
   Result<SolveReport> solve(const SolveOptions& options);
 
   /** Deformed vertices as stored, model units (vertex count × 3), and their normals if wanted. `rest_normals` are the authored ones
@@ -79,8 +86,11 @@ class Irbf {
     Columns3 solution;              // 4 + C
     Columns3 missed;                // constraints
     std::vector<Matrix3> warm;      // B
-    std::vector<double> solved_targets;
+    std::vector<double> solved_targets, solved_shapes;
   };
+
+  Result<Done> check_shapes() const;
+  void begin(const RigidMotion& frame);
 
   std::unique_ptr<const FrameKernel> make_handle_kernel(const ReducedSystem& system) const;
 
@@ -93,12 +103,12 @@ class Irbf {
   HandleConstraints constraints_;
   ReducedSystem system_;
   LocalGlobal local_global_;
-  std::vector<double> targets_;
+  std::vector<double> targets_, shapes_;
   Workspace work_;
 
   // The last solution, solver space: the displacement linear·x + translation + Ψ·coefficients.
   bool solved_ = false;
-  std::vector<Matrix3> rotations_;  // M_b of every sphere
+  std::vector<Matrix3> maps_;  // M_b of every sphere
   Matrix3 linear_ = Matrix3::Zero();
   Vector3 translation_ = Vector3::Zero();
   Matrix coefficients_;

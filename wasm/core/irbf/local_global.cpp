@@ -14,18 +14,26 @@ namespace {
 constexpr Index window = 8;
 /** A step may raise the energy by rounding. */
 constexpr double rounding = 1e-12;
+/** A sphere that shrinks to nothing could not turn any more. */
+constexpr double least_scale = 1e-3;
 
 }  // namespace
 
-LocalGlobal::LocalGlobal(Points edges, Vector edge_scale)
-    : edges_(std::move(edges)),
+LocalGlobal::LocalGlobal(Points edges, Vector edge_scale, SphereFit fit)
+    : fit_(fit),
+      edges_(std::move(edges)),
+      shaped_(edges_),
+      squares_(edges_.rows() / 3),
       edge_scale_(std::move(edge_scale)),
       anderson_(3 * edges_.rows(), window),
       displaced_(Columns3::Zero(edges_.rows(), 3)),
-      turned_(displaced_),
+      mapped_(displaced_),
       stepped_(displaced_),
-      rotations_(edges_.rows() / 3, Matrix3::Identity()),
-      trial_(rotations_) {}
+      unshaped_(edges_.rows() / 3, Matrix3::Identity()),
+      maps_(unshaped_),
+      trial_(maps_) {
+  measure();
+}
 
 LocalGlobal::LocalGlobal(LocalGlobal&&) noexcept = default;
 LocalGlobal& LocalGlobal::operator=(LocalGlobal&&) noexcept = default;
@@ -33,16 +41,36 @@ LocalGlobal::~LocalGlobal() = default;
 
 void LocalGlobal::set_system(const MatrixXd& hat) {
   hat_ = &hat;
-  hessian_ = RotationHessian(edges_, hat);
+  hessian_ = RotationHessian(edges_, hat, fit_);
   right_hand_side_ = image_ = residual_ = Columns3::Zero(hat.rows(), 3);
 }
 
-double LocalGlobal::energy(const std::vector<Matrix3>& rotations) {
-  // What is solved for are displacements: √w (M_b − I) e.
-  for (Index b = 0; b < std::ssize(rotations); ++b) {
-    const Matrix3 turn = rotations[b] - Matrix3::Identity();
-    right_hand_side_.middleRows<3>(3 * b).noalias() = edges_.middleRows<3>(3 * b) * turn.transpose();
+void LocalGlobal::shape(const double* shapes) {
+  using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  for (Index b = 0; b < squares_.size(); ++b) {
+    const Matrix3 shape = Eigen::Map<const RowMajor3>(shapes + 9 * b);
+    const auto edges = edges_.middleRows<3>(3 * b);
+    shaped_.middleRows<3>(3 * b).noalias() = edges * shape.transpose();
+    unshaped_[b] = closest_rotation(edges.transpose() * shaped_.middleRows<3>(3 * b));
+    // What only stretches turns nothing, by rounding either.
+    if ((unshaped_[b] - Matrix3::Identity()).squaredNorm() < rounding * rounding) unshaped_[b].setIdentity();
   }
+  measure();
+}
+
+void LocalGlobal::rest(double scale) {
+  for (std::size_t b = 0; b < maps_.size(); ++b) maps_[b] = scale * unshaped_[b];
+}
+
+void LocalGlobal::measure() {
+  for (Index b = 0; b < squares_.size(); ++b) squares_[b] = shaped_.middleRows<3>(3 * b).squaredNorm();
+}
+
+double LocalGlobal::energy(const std::vector<Matrix3>& maps) {
+  // What is solved for are displacements: √w (M_b S − I) e.
+  for (Index b = 0; b < std::ssize(maps); ++b)
+    right_hand_side_.middleRows<3>(3 * b).noalias() =
+        shaped_.middleRows<3>(3 * b) * maps[b].transpose() - edges_.middleRows<3>(3 * b);
   for (Index axis = 0; axis < 3; ++axis)
     image_.col(axis).noalias() = hat_->selfadjointView<Eigen::Lower>() * right_hand_side_.col(axis);
   return right_hand_side_.cwiseProduct(right_hand_side_ - image_).sum();
@@ -55,32 +83,38 @@ void LocalGlobal::start(double energy) {
   accelerated_ = true;  // at rest or warm, the quasi-Newton step is the better first one, too
 }
 
-/** The local step: Procrustes, eq. (12), for every sphere. */
-void LocalGlobal::plain_step(std::vector<Matrix3>& rotations) const {
-  for (Index b = 0; b < std::ssize(rotations); ++b) {
+/** Procrustes, eq. (12), and where spheres may grow the scale that goes with the rotation: tr(Rᵀ H)/Σ w‖S e‖². */
+Matrix3 LocalGlobal::closest_map(const Matrix3& covariance, Index sphere) const {
+  Matrix3 map = closest_rotation(covariance);
+  if (fit_ == SphereFit::similarity) map *= std::max(map.cwiseProduct(covariance).sum() / squares_[sphere], least_scale);
+  return map;
+}
+
+/** The local step for every sphere. */
+void LocalGlobal::plain_step(std::vector<Matrix3>& maps) const {
+  for (Index b = 0; b < std::ssize(maps); ++b) {
     const Matrix3 moved = displaced_.middleRows<3>(3 * b) + edges_.middleRows<3>(3 * b);
-    rotations[b] = closest_rotation(moved.transpose() * edges_.middleRows<3>(3 * b));
+    maps[b] = closest_map(moved.transpose() * shaped_.middleRows<3>(3 * b), b);
   }
 }
 
-/** A step from rotations_, whose right-hand side and image are up to date. Anderson acceleration combines turned edges, from which
- * closest rotations make a step again. */
+/** A step from maps_, whose right-hand side and image are up to date. Anderson acceleration combines mapped edges, from which
+ * closest maps make a step again. */
 void LocalGlobal::accelerated_step() {
   if (hessian_.empty()) {
     plain_step(trial_);
   } else {
     residual_ = right_hand_side_ - image_;
-    hessian_.step(edges_, residual_, rotations_, trial_);
+    hessian_.step(shaped_, residual_, maps_, trial_);
   }
-  for (Index b = 0; b < std::ssize(rotations_); ++b) {
-    const auto edges = edges_.middleRows<3>(3 * b);
-    turned_.middleRows<3>(3 * b).noalias() = edges * rotations_[b].transpose();
+  for (Index b = 0; b < std::ssize(maps_); ++b) {
+    const auto edges = shaped_.middleRows<3>(3 * b);
+    mapped_.middleRows<3>(3 * b).noalias() = edges * maps_[b].transpose();
     stepped_.middleRows<3>(3 * b).noalias() = edges * trial_[b].transpose();
   }
-  anderson_.accelerate(turned_.data(), stepped_.data(), stepped_.data());
-  for (Index b = 0; b < std::ssize(rotations_); ++b) {
-    trial_[b] = closest_rotation(stepped_.middleRows<3>(3 * b).transpose() * edges_.middleRows<3>(3 * b));
-  }
+  anderson_.accelerate(mapped_.data(), stepped_.data(), stepped_.data());
+  for (Index b = 0; b < std::ssize(maps_); ++b)
+    trial_[b] = closest_map(stepped_.middleRows<3>(3 * b).transpose() * shaped_.middleRows<3>(3 * b), b);
 }
 
 LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
@@ -97,11 +131,11 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     const double energy = this->energy(trial_);
     if (accelerated && !(energy <= energy_ * (1 + rounding))) {  // the step raised the energy: a plain one cannot
       accelerated_ = false;
-      this->energy(rotations_);  // their right-hand side and image again
+      this->energy(maps_);  // their right-hand side and image again
       continue;
     }
     energy_ = energy;
-    rotations_.swap(trial_);
+    maps_.swap(trial_);
     const auto moved = image_.topRows(edges_.rows()) - displaced_;
     report.change = std::sqrt((moved.rowwise().squaredNorm().array() * edge_scale_.array().square()).maxCoeff());
     report.converged = report.change < options.tolerance;

@@ -1,6 +1,6 @@
-// Minimization of the sphere energy (paper 001, §4.6) over the rotations of the spheres: local/global iterations, whose steps are
-// lengthened by a quasi-Newton direction (rotation_hessian.hpp), combined by Anderson acceleration, and guarded by the energy as by
-// Peng et al. (2018). An iteration touches neither centers nor vertices.
+// Minimization of the sphere energy (paper 001, §4.6) over the maps of the spheres, rotations or similarities: local/global
+// iterations, whose steps are lengthened by a quasi-Newton direction (rotation_hessian.hpp), combined by Anderson acceleration, and
+// guarded by the energy as by Peng et al. (2018). An iteration touches neither centers nor vertices.
 //
 // The dog, 112 spheres, 400 centers, a paw lifted; iterations from rest to within 10% and 1% of the least energy: local/global
 // alone 277, 908; with Anderson (window 8) 40, 78; with the quasi-Newton direction 5, 12; with both 3, 6. An iteration takes the
@@ -30,13 +30,13 @@ struct LocalGlobalReport {
 class LocalGlobal {
  public:
   /** `edges`: three per sphere, weighted by √w (3B × 3); `edge_scale` 1/√w. */
-  LocalGlobal(Points edges, Vector edge_scale);
+  LocalGlobal(Points edges, Vector edge_scale, SphereFit fit);
   // Compiled once, because many places move one.
   LocalGlobal(LocalGlobal&&) noexcept;
   LocalGlobal& operator=(LocalGlobal&&) noexcept;
   ~LocalGlobal();
 
-  /** The matrix of ReducedSystem; must outlive the iterations. Rotations stay. */
+  /** The matrix of ReducedSystem; must outlive the iterations. Maps stay. */
   void set_system(const MatrixXd& hat);
 
   /** The same matrix has another place. */
@@ -45,34 +45,48 @@ class LocalGlobal {
   /** Constraint rows of the right-hand side, to be written before start(): displacements, weighted. */
   auto constraints() { return right_hand_side_.bottomRows(right_hand_side_.rows() - edges_.rows()); }
 
-  std::vector<Matrix3>& rotations() { return rotations_; }
+  /** Target shapes, eq. (11): nine numbers a sphere, the rows of a linear map S. The identity keeps the sphere. Allocates nothing.
+   */
+  void shape(const double* shapes);
 
-  /** The least energy for given rotations and the present constraints. */
-  double energy(const std::vector<Matrix3>& rotations);
+  /** Puts maps() to what leaves the shapes nearest to the spheres at rest, times `scale`. */
+  void rest(double scale);
 
-  /** Begins at `rotations()`, for which energy() was called last and gave `energy`; forgets earlier steps. */
+  /** M_b of every sphere. */
+  std::vector<Matrix3>& maps() { return maps_; }
+
+  /** The least energy for given maps and the present constraints. */
+  double energy(const std::vector<Matrix3>& maps);
+
+  /** Begins at `maps()`, for which energy() was called last and gave `energy`; forgets earlier steps. */
   void start(double energy);
 
-  /** Goes on from where it stopped. Allocates nothing. Leaves the best rotations in rotations(), and their right-hand side. */
+  /** Goes on from where it stopped. Allocates nothing. Leaves the best maps in maps(), and their right-hand side. */
   LocalGlobalReport run(const LocalGlobalOptions& options);
 
-  /** √w (M_b − I) e of the rotations, then the constraints. */
+  /** √w (M_b S − I) e, then the constraints. */
   const Columns3& right_hand_side() const { return right_hand_side_; }
 
  private:
-  void plain_step(std::vector<Matrix3>& rotations) const;
+  void measure();
+  Matrix3 closest_map(const Matrix3& covariance, Index sphere) const;
+  void plain_step(std::vector<Matrix3>& maps) const;
   void accelerated_step();
 
+  SphereFit fit_;
   Points edges_;
+  Points shaped_;   // √w S e
+  Vector squares_;  // B: Σ w‖S e‖²
   Vector edge_scale_;
   const MatrixXd* hat_ = nullptr;
   RotationHessian hessian_;
   Anderson anderson_;
   Columns3 right_hand_side_, image_;  // and hat times it
   Columns3 residual_;                 // their difference
-  Columns3 displaced_;                // the edges' displacements at rotations_
-  Columns3 turned_, stepped_;         // edges turned by rotations, before and after a step
-  std::vector<Matrix3> rotations_, trial_;
+  Columns3 displaced_;                // the edges' displacements at maps_
+  Columns3 mapped_, stepped_;         // shaped edges under the maps, before and after a step
+  std::vector<Matrix3> unshaped_;     // the rotations that take the shapes nearest to the spheres at rest
+  std::vector<Matrix3> maps_, trial_;
   bool accelerated_ = false;  // whether trial_ holds such a step
   double energy_ = 0;
 };

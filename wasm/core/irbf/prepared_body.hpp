@@ -10,6 +10,7 @@
 #include "core/irbf/frame_kernel.hpp"
 #include "core/irbf/quality.hpp"
 #include "core/irbf/reduced_system.hpp"
+#include "core/irbf/rotation_hessian.hpp"
 #include "core/mesh/triangle_tree.hpp"
 #include "core/mesh/weld.hpp"
 
@@ -23,6 +24,7 @@ struct IrbfOptions {
   double edge_exponent = -1;   // α of eq. (8)
   ConstraintKind constraints = ConstraintKind::soft;
   FramePrecision precision = FramePrecision::fixed;
+  SphereFit sphere_fit = SphereFit::rigid;
 };
 
 struct PreparedBody {

@@ -2,6 +2,7 @@
 #include "core/irbf/rotation_hessian.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,40 +27,55 @@ Matrix3 exponential(const Vector3& turn) {
 
 }  // namespace
 
-RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat) {
+RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit)
+    : freedoms_(fit == SphereFit::similarity ? 4 : 3) {
   const Index spheres = edges.rows() / 3;
   if (spheres > most_spheres) return;
-  MatrixXd hessian = MatrixXd::Zero(edges.rows(), edges.rows());
-  gradient_.resize(edges.rows());
+  MatrixXd hessian = MatrixXd::Zero(freedoms_ * spheres, freedoms_ * spheres);
+  gradient_.resize(hessian.rows());
   for (Index b = 0; b < spheres; ++b) {
     for (Index a = b; a < spheres; ++a) {
-      Matrix3 block = Matrix3::Zero();  // Σ k [e]×ᵀ [f]× = Σ k ((e·f) I − f eᵀ)
+      // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm σ move an edge by Jₑ (ω, σ) = ω × e + σ e.
+      Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
       for (Index i = 3 * a; i < 3 * a + 3; ++i) {
         for (Index j = 3 * b; j < 3 * b + 3; ++j) {
           const double k = (i == j ? 1 + damping : 0) - hat(i, j);
           const Vector3 e = edges.row(i), f = edges.row(j);
-          block += k * (e.dot(f) * Matrix3::Identity() - f * e.transpose());
+          const double along = e.dot(f);
+          block.topLeftCorner<3, 3>() += k * (along * Matrix3::Identity() - f * e.transpose());  // [e]×ᵀ [f]×
+          if (freedoms_ == 3) continue;
+          const Vector3 across = k * e.cross(f);
+          block.topRightCorner<3, 1>() += across;
+          block.bottomLeftCorner<1, 3>() -= across.transpose();
+          block(3, 3) += k * along;
         }
       }
-      hessian.block<3, 3>(3 * a, 3 * b) = block;
+      hessian.block(freedoms_ * a, freedoms_ * b, freedoms_, freedoms_) = block.topLeftCorner(freedoms_, freedoms_);
     }
   }
   factor_.emplace(std::move(hessian));
   if (!factor_->succeeded()) factor_.reset();
 }
 
-void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& rotations,
-                           std::vector<Matrix3>& turned) {
-  for (Index b = 0; b < std::ssize(rotations); ++b) {
-    const Matrix3& rotation = rotations[b];
+void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps,
+                           std::vector<Matrix3>& stepped) {
+  for (Index b = 0; b < std::ssize(maps); ++b) {
+    const Matrix3& map = maps[b];
     Vector3 torque = Vector3::Zero();
-    for (Index i = 3 * b; i < 3 * b + 3; ++i)
-      torque += Vector3(edges.row(i)).cross(Vector3(rotation.transpose() * residual.row(i).transpose()));
-    gradient_.segment<3>(3 * b) = torque;
+    double growth = 0;
+    for (Index i = 3 * b; i < 3 * b + 3; ++i) {
+      const Vector3 edge = edges.row(i), pull = map.transpose() * residual.row(i).transpose();
+      torque += edge.cross(pull);
+      growth += edge.dot(pull);
+    }
+    gradient_.segment<3>(freedoms_ * b) = torque;
+    if (freedoms_ == 4) gradient_[4 * b + 3] = growth;
   }
   factor_->solve_in_place(gradient_);
-  for (std::size_t b = 0; b < rotations.size(); ++b)
-    turned[b] = rotations[b] * exponential(-gradient_.segment<3>(3 * static_cast<Index>(b)));
+  for (Index b = 0; b < std::ssize(maps); ++b) {
+    stepped[b] = maps[b] * exponential(-gradient_.segment<3>(freedoms_ * b));
+    if (freedoms_ == 4) stepped[b] *= std::exp(-std::clamp(gradient_[4 * b + 3], -1.0, 1.0));
+  }
 }
 
 }  // namespace handlebody

@@ -1,8 +1,10 @@
-// The curvature of the sphere energy over the rotations of the spheres, factored once for a set of handles.
+// The curvature of the sphere energy over the rotations of the spheres, or over their similarities, factored once for a set of
+// handles.
 //
 // With the mapping solved for, eq. (10) is a function of the rotations alone: F = rhsᵀ(I − hat) rhs. Local/global iterations take
 // steps that bound its curvature by that of hat = 0. They are slow for the long waves, where a limb's spheres turn together, since
-// I − hat hardly resists these. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, has that small curvature.
+// I − hat hardly resists these. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, has that small curvature. A
+// sphere that may grow has a fourth number beside the three of its turn: the logarithm of its scale.
 //
 // Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as
 // long as sixty of them.
@@ -15,19 +17,23 @@
 
 namespace handlebody {
 
+/** What of a sphere's map is free: eq. (8)'s closest rigid map, or §4.5's closest similarity. */
+enum class SphereFit : unsigned { rigid = 0, similarity = 1 };
+
 class RotationHessian {
  public:
   RotationHessian() = default;
 
   /** `edges` √w e (3B×3), `hat` of ReducedSystem. Stays empty where there are too many spheres for it to pay off. */
-  RotationHessian(const Points& edges, const MatrixXd& hat);
+  RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit = SphereFit::rigid);
 
   bool empty() const { return !factor_.has_value(); }
 
-  /** Turns the rotations by the Newton step, from the residual Γ₁ − Z₁Π at them. Allocates nothing. */
-  void step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& rotations, std::vector<Matrix3>& turned);
+  /** Turns (and scales) the spheres' maps by the Newton step, from the residual Γ₁ − Z₁Π at them. Allocates nothing. */
+  void step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps, std::vector<Matrix3>& stepped);
 
  private:
+  Index freedoms_ = 3;  // of a sphere
   std::optional<Cholesky> factor_;
   Vector gradient_;
 };
