@@ -13,6 +13,7 @@ const UNTESTED = {
 const OF_MORE = {
   'tests/core/given_counts_test.cpp': 'every count that a caller gives to the C interface',
   'tests/core/irbf_solver_test.cpp': "IRBF from the bake to the frame, on the paper's bar",
+  'tests/core/irbf_shapes_test.cpp': 'shapes of spheres from the targets to the frame',
 };
 
 /**

@@ -38,7 +38,7 @@ beforeAll(() => {
 });
 
 describe("the README's examples", () => {
-  it('are there', () => expect(examples).toHaveLength(6));
+  it('are there', () => expect(examples).toHaveLength(7));
 
   it('are about ten lines', () => {
     for (const { code } of examples)
@@ -99,8 +99,17 @@ describe("the README's examples", () => {
     expect(anywhere).toHaveLength(6);
   });
 
+  it('make the box higher about its largest sphere', async () => {
+    const { irbf } = await import(/* @vite-ignore */ examples[3]?.file ?? '');
+    const [x = 0, y = 0, z = 0, radius = 0] = irbf.body.spheres;
+    const { center, diagonal } = irbf.body.normalization;
+    const ends = [-radius, radius].flatMap((up) => [x, y + up, z].map((c, axis) => center[axis] + diagonal * c));
+    const moved = irbf.evaluate(ends) as Float64Array;
+    expect(Math.abs(((moved[4] as number) - (moved[1] as number)) / (4 * radius * diagonal) - 1)).toBeLessThan(0.02);
+  });
+
   it('blend the faces: each example is met at its own place', async () => {
-    const { space, examples: faces, shape } = await import(/* @vite-ignore */ examples[3]?.file ?? '');
+    const { space, examples: faces, shape } = await import(/* @vite-ignore */ examples[4]?.file ?? '');
     expect(shape).toHaveLength(3);
     for (const face of faces) {
       const got = Array.from(space.evaluate(face.at) as Float64Array);
@@ -111,7 +120,7 @@ describe("the README's examples", () => {
   });
 
   it('pass through their points, gently or not', async () => {
-    const { data, surface, heights, slope, report, gentle } = await import(/* @vite-ignore */ examples[4]?.file ?? '');
+    const { data, surface, heights, slope, report, gentle } = await import(/* @vite-ignore */ examples[5]?.file ?? '');
     expect(heights[0]).toBeCloseTo(2, 6);
     data.values.forEach((value: number, i: number) => {
       expect(surface.evaluate(data.points.slice(2 * i, 2 * i + 2))[0]).toBeCloseTo(value, 6);
@@ -123,7 +132,7 @@ describe("the README's examples", () => {
   });
 
   it('bend the plane: its right end stands upright, its left end stays', async () => {
-    const { mesh, bent, weights } = await import(/* @vite-ignore */ examples[5]?.file ?? '');
+    const { mesh, bent, weights } = await import(/* @vite-ignore */ examples[6]?.file ?? '');
     expect(weights).toHaveLength((mesh.positions.length / 3) * 2);
     for (let v = 0; v < mesh.positions.length / 3; v++) {
       const [x, y] = mesh.positions.slice(3 * v, 3 * v + 2);

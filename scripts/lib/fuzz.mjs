@@ -119,18 +119,21 @@ async function runFuzzer(program, args, quiet = false) {
 }
 
 /**
- * Fuzzes a target for so many seconds or executions; a crash is minimized into tests/repro/fuzz.
- * @param {string} folder @param {FuzzTarget} target @param {{ seconds?: number, runs?: number }} limits
+ * Fuzzes a target for so many seconds or executions; a crash is minimized into tests/repro/fuzz. With a seed it is from the committed inputs
+ * alone, by the same changes every time.
+ * @param {string} folder @param {FuzzTarget} target @param {{ seconds?: number | undefined, runs?: number | undefined, seed?: number | undefined }} limits
  * @returns {Promise<FuzzResult>}
  */
-export async function fuzz(folder, target, { seconds, runs }) {
+export async function fuzz(folder, target, { seconds, runs, seed }) {
   mkdirSync(target.corpus, { recursive: true });
+  const corpus = seed === undefined ? target.corpus : mkdtempSync(at('build', 'fuzz-corpus-'));
   const seeds = target.unpack();
   const found = mkdtempSync(at('build', 'fuzz-found-'));
   const program = path.join(folder, target.program);
   const limits = [
     ...(seconds === undefined ? [] : [`-max_total_time=${seconds}`]),
     ...(runs === undefined ? [] : [`-runs=${runs}`]),
+    ...(seed === undefined ? [] : [`-seed=${seed}`]),
   ];
   const common = [
     `-timeout=${TIMEOUT}`,
@@ -142,7 +145,7 @@ export async function fuzz(folder, target, { seconds, runs }) {
   ];
   const { status, output } = await runFuzzer(
     program,
-    [...common, ...limits, '-print_final_stats=0', `-artifact_prefix=${found}/`, target.corpus, seeds],
+    [...common, ...limits, '-print_final_stats=0', `-artifact_prefix=${found}/`, corpus, seeds],
     true,
   );
   const counts = readCounts(output);
@@ -157,6 +160,7 @@ export async function fuzz(folder, target, { seconds, runs }) {
         .join('\n'),
     );
   rmSync(found, { recursive: true, force: true });
+  if (corpus !== target.corpus) rmSync(corpus, { recursive: true, force: true });
   return { name: target.name, ...counts, failed: status !== 0 };
 }
 

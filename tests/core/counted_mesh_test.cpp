@@ -66,6 +66,7 @@ TEST_CASE("too little left, no extent, and vertices that no float holds are refu
   const test::MadeMesh box = test::made_box({1, 1, 1}, {1, 1, 1});
   const auto code = [](const Result<CountedMesh>& counted) { return counted ? HB_OK : counted.error().code; };
   CHECK(code(count_mesh(box.positions, box.triangles.topRows(1), {})) == HB_ERROR_MESH_TOO_FEW_VERTICES);
+  CHECK(code(count_mesh(box.positions, Triangles(0, 3), std::vector<std::uint8_t>(8))) == HB_ERROR_MESH_TOO_FEW_VERTICES);
   CHECK(code(count_mesh(Points::Constant(8, 3, 5), box.triangles, {})) == HB_ERROR_MESH_ZERO_EXTENT);
   CHECK(code(count_mesh(1e200 * box.positions, box.triangles, {})) == HB_ERROR_MESH_NOT_FINITE);
   Points positions(9, 3);

@@ -29,6 +29,12 @@ void take(CountedMesh& mesh, const ConstPoints& positions, const ConstTriangles&
   mesh.triangles = weld_triangles(mesh.weld, mesh.triangles);
 }
 
+Error too_few(const CountedMesh& mesh) {
+  return {HB_ERROR_MESH_TOO_FEW_VERTICES,
+          {"Triangles use ", mesh.stored.size(), " vertices; a volume needs at least four."},
+          {"Give a closed triangle mesh."}};
+}
+
 /** Vertices that do not count, and the one of them farthest from a place. Those in the place of one that counts are that one,
  * split. */
 struct LeftOut {
@@ -80,10 +86,9 @@ Result<CountedMesh> count_mesh(const ConstPoints& positions, const ConstTriangle
   mesh.triangles = std::move(sound.triangles);
   mesh.with_area = sound.with_area;
 
+  if (mesh.stored.empty()) return too_few(mesh);  // there is no box to measure
   if (auto checked = check_extent(normalize(mesh.positions)); !checked) return checked.error();
-  if (mesh.stored.size() < 4)
-    return Error(HB_ERROR_MESH_TOO_FEW_VERTICES, {"Triangles use ", mesh.stored.size(), " vertices; a volume needs at least four."},
-                 {"Give a closed triangle mesh."});
+  if (mesh.stored.size() < 4) return too_few(mesh);
   const auto [left_out, farthest] =
       mesh.stored.size() < count ? find_left_out(positions, used, normalize(mesh.positions).center) : LeftOut{};
   if (left_out > 0) {

@@ -55,7 +55,8 @@ Kernel Kernel::of(KernelKind kind, double width, Index dimension, int order) {
   const int half = static_cast<int>(dimension / 2);
   switch (kind) {
     case KernelKind::polyharmonic:
-      kernel.exponent = 2 * order - static_cast<int>(dimension);
+      // Whoever takes the order checks it; here it is only not to overflow.
+      kernel.exponent = 2 * std::clamp(order, 0, 1000) - static_cast<int>(dimension);
       break;
     case KernelKind::wendland_c0:
       kernel.exponent = half + 1;
