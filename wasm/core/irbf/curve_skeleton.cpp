@@ -11,6 +11,7 @@ namespace handlebody {
 namespace {
 
 // Lengths of the graph are in spacings.
+constexpr double corner = 1.75;           // radii from the middle of a box to its corner, and a little
 constexpr double rounding_of_ends = 0.8;  // an end is where the radius has fallen to this part of that before
 constexpr double margin = 1;              // what a branch must reach beyond the ball that it grows from
 // Places where curves meet are one if their distance along the curve is at most this part of the sum of their radii: two spheres
@@ -124,7 +125,7 @@ void PathGraph::trim_ends() {
     const Chain chain = follow(end, to);
     double largest = 0;
     for (const std::int32_t n : chain) {
-      if (distance(n, end) > covered_depths * depths_[n] + 0.5) break;
+      if (distance(n, end) > corner * depths_[n] + 0.5) break;
       largest = std::max(largest, depths_[n]);
     }
     for (std::size_t i = 0; i + 1 < chain.size() && depths_[chain[i]] < rounding_of_ends * largest; ++i) remove(chain[i]);

@@ -14,8 +14,15 @@ constexpr double tie = 1e-6;
 constexpr double least_depth = 0.25;  // what a voxel on the surface, or a bridge, counts as
 // Weights are 16 for the deepest voxel and at most a million times that: 64 million steps then sum to less than 2⁶³.
 constexpr double weight_of_deepest = 16, heaviest = 1e6 * weight_of_deepest;
-constexpr double covered_beside = 1.5;  // besides `covered_depths`: the staircase of the voxels
-constexpr double cover_step = 0.25;     // in depths: balls of 1.75 depths so close together leave no gap worth a voxel
+constexpr double covered_beside = 0.5;  // a ball that touches the surface covers the staircase of its voxels too
+constexpr double cover_step = 0.25;     // in depths: balls so close together leave nothing of a voxel between them
+// A limb reaches beyond the balls of what it grows from by either of these, and a voxel and a half. A cube's corner reaches 0.73
+// and 1.73, the flank of a body twice as wide as high 1 and 1.25; an animal's leg 1 and 2, an ear 0.8 and 3 to 4.
+constexpr double slender = 2;            // times its own depth there, at most;
+constexpr double long_depths = 0.75;     // or times the depth of what it grows from,
+constexpr double hardly_slender = 1.25;  // if it is this many times its own
+constexpr double beyond = 1.5;
+constexpr std::int64_t least_way_around = 8 * 1024;  // of each way around a hole: a smaller one is a slip of the grid
 
 /** What comes out of a heap later: it costs more, or as much and has the higher number. */
 struct Trial {
@@ -47,7 +54,9 @@ class PathSearch {
   void spread();
   std::int32_t farthest() const;
   void find_tree(std::int32_t root);
+  bool is_limb(std::int32_t end);
   void add_path(std::int32_t end);
+  void cover_along(const std::vector<std::int32_t>& path, std::size_t count);
   void cover(std::int32_t center);
   std::int32_t way_around(std::int32_t end);
   void walk(std::int32_t from, std::vector<std::int32_t>& path) const;
@@ -181,6 +190,7 @@ std::int32_t PathSearch::farthest() const {
 }
 
 void PathSearch::find_tree(std::int32_t root) {
+  const std::size_t first = paths_.voxels.size() + 1;
   next_[root] = -1;
   place_[root] = static_cast<std::int32_t>(paths_.voxels.size());
   paths_.voxels.push_back(root);
@@ -201,7 +211,9 @@ void PathSearch::find_tree(std::int32_t root) {
       std::push_heap(ends_.begin(), ends_.end(), farthest_first);
       continue;
     }
+    const bool alone = paths_.voxels.size() == first;  // the part has nothing but its root yet
     const std::int32_t other = way_around(end.voxel);
+    if (other < 0 && !alone && !is_limb(end.voxel)) continue;
     add_path(end.voxel);
     if (other >= 0) {
       if (place_[other] < 0) add_path(other);
@@ -217,6 +229,19 @@ void PathSearch::walk(std::int32_t from, std::vector<std::int32_t>& path) const 
   while (place_[path.back()] < 0) path.push_back(next_[path.back()]);
 }
 
+/** Whether a way to the paths, given by its end, leads along a limb. If not, it covers what it leads along. */
+bool PathSearch::is_limb(std::int32_t end) {
+  walk(end, path_);
+  std::size_t exit = 0;
+  double thick = 0;
+  while (!covered_[path_[exit]]) thick = std::max(thick, depth_[path_[exit++]]);
+  const double reach = distance(end, path_[exit]) - beyond;
+  if (reach >= slender * thick) return true;
+  if (reach >= long_depths * depth_[path_.back()] && reach >= hardly_slender * thick) return true;
+  cover_along(path_, exit);
+  return false;
+}
+
 void PathSearch::add_path(std::int32_t end) {
   walk(end, path_);
   for (std::size_t i = path_.size() - 1; i-- > 0;) {
@@ -225,17 +250,21 @@ void PathSearch::add_path(std::int32_t end) {
     paths_.toward.push_back(place_[path_[i + 1]]);
     seed(path_[i]);
   }
+  cover_along(path_, path_.size());
+}
+
+void PathSearch::cover_along(const std::vector<std::int32_t>& path, std::size_t count) {
   std::int32_t last = -1;
-  for (const std::int32_t v : path_) {
-    if (last >= 0 && distance(v, last) < cover_step * depth_[v]) continue;
-    cover(v);
-    last = v;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (last >= 0 && distance(path[i], last) < cover_step * depth_[path[i]]) continue;
+    cover(path[i]);
+    last = path[i];
   }
 }
 
 /** Marks what lies around a voxel of a path and is joined to it there: not the limb beside. */
 void PathSearch::cover(std::int32_t center) {
-  const double radius = covered_depths * depth_[center] + covered_beside;
+  const double radius = depth_[center] + covered_beside;
   flood_.assign(1, center);
   mark_[center] = ++floods_;
   for (std::size_t head = 0; head < flood_.size(); ++head) {
@@ -252,13 +281,15 @@ void PathSearch::cover(std::int32_t center) {
 /** The neighbor of a path's end whose own way to the paths leads around the other side of a hole, or −1. At the middle between, the
  * two ways are apart, and between them lies what is outside. */
 std::int32_t PathSearch::way_around(std::int32_t end) {
+  if (length_[end] < least_way_around) return -1;
   walk(end, path_);
   const Neighbors around = neighbors(end);
   for (int n = 0; n < around.count; ++n) {
+    if (length_[around.voxel[n]] < least_way_around) continue;
     walk(around.voxel[n], other_);
     const std::size_t a = path_.size() / 2, b = other_.size() / 2;
     const std::int32_t here = path_[a], there = other_[b];
-    if (distance(here, there) < depth_[here] + depth_[there] + covered_beside) continue;
+    if (distance(here, there) < depth_[here] + depth_[there] + beyond) continue;
     const std::int32_t late_here = path_[3 * path_.size() / 4], late_there = other_[3 * other_.size() / 4];
     if (leaves_domain(here, there) || leaves_domain(late_here, late_there)) return around.voxel[n];
   }

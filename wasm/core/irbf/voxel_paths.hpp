@@ -2,9 +2,14 @@
 //
 // After TEASAR (Sato, Bitter, Bender, Kaufman & Nakajima, "TEASAR: tree-structure extraction algorithm for accurate and robust
 // skeletons", Pacific Graphics 2000): from the voxel that is farthest from the paths so far, the path to them that keeps from the
-// surface, until every voxel lies near a path. Different from there: a step costs 1/depth³, which centers a path in a thin limb as
-// it does in a torso (TEASAR's (1 − depth/deepest)¹⁶ hardly tells the axis of a finger from its skin); paths lead to the nearest
-// path, not to the root, so that limbs meet where they are joined; and where two ways lead around a hole, both are taken.
+// surface, until every voxel lies in a ball around a path. Different from there:
+//  - A step costs 1/depth³, which centers a path in a thin limb as it does in a torso; (1 − depth/deepest)¹⁶ hardly tells the axis
+//  of
+//    a finger from its skin.
+//  - Paths lead to the nearest path, not to the root, so that limbs meet where they are joined.
+//  - A path is kept if it leads along a limb, by how far it reaches out of the balls compared with its own depth and theirs. A ball
+//    enlarged by a factor and a constant, as there, loses the ears of a thick head, or takes the corners of a box for limbs.
+//  - Where two ways lead around a hole, both are taken.
 #pragma once
 
 #include <array>
@@ -14,10 +19,6 @@
 #include "core/distance/voxel_domain.hpp"
 
 namespace handlebody {
-
-/** A path covers the voxels that lie within this many depths of it: all the body around, and a box's corners (√3), so that none of
- * them is an end of its own. */
-inline constexpr double covered_depths = 1.75;
 
 struct VoxelPaths {
   std::vector<std::int32_t> voxels;                // compact voxel numbers, each once; a voxel comes after the one that it leads to
