@@ -14,9 +14,10 @@ namespace {
 constexpr double corner = 1.75;           // radii from the middle of a box to its corner, and a little
 constexpr double rounding_of_ends = 0.8;  // an end is where the radius has fallen to this part of that before
 constexpr double margin = 1;              // what a branch must reach beyond the ball that it grows from
-// Places where curves meet are one if their distance along the curve is at most this part of the sum of their radii: two spheres
-// of 90% would overlap by more than half a radius, and nothing fits between.
-constexpr double meeting = 0.6;
+// Places where curves meet are one if they are at most this part of the sum of their radii apart: two spheres of 90% would overlap.
+// On a hand, spheres at the roots of fingers and thumb would fight for the palm.
+constexpr double meeting = 0.9;
+constexpr double nearby = 2;  // or this far: thin limbs that cross meet within a voxel or two
 constexpr double node_spacing = 0.5;
 constexpr int smoothing_steps = 12;  // at half a voxel: staircases of a voxel are gone, and bends of three remain
 
@@ -152,7 +153,7 @@ bool PathGraph::close_together(const Chain& chain) const {
   if (degree_[a] < 3 || degree_[b] < 3) return false;
   double length = 0;
   for (std::size_t i = 1; i < chain.size(); ++i) length += distance(chain[i - 1], chain[i]);
-  return length <= std::max(meeting * (depths_[a] + depths_[b]), 2.);
+  return length <= std::max(meeting * (depths_[a] + depths_[b]), nearby);
 }
 
 /** A curve through places, in spacings, at even steps and smooth; its ends stay. */
@@ -219,10 +220,11 @@ class Drawing {
   const std::vector<double>& depth_;
   const PathGraph& graph_;
   std::vector<PathGraph::Chain> chains_;
-  std::vector<std::int32_t> above_;            // joins the nodes of a hub
-  std::vector<std::int32_t> deepest_;          // of a hub, by its root
-  std::vector<std::uint32_t> nodes_;           // that were made for ends, by root
-  std::vector<std::vector<std::int32_t>> at_;  // the chains that end there, by root
+  std::vector<std::int32_t> above_;              // joins the nodes of a hub
+  std::vector<std::int32_t> deepest_;            // of a hub, by its root
+  std::vector<std::uint32_t> nodes_;             // that were made for ends, by root
+  std::vector<std::vector<std::int32_t>> at_;    // the chains that end there, by root
+  std::vector<std::vector<std::int32_t>> hubs_;  // that are joined, by root
   std::vector<std::uint8_t> joined_, drawn_;
   CurveSkeleton skeleton_;
 };
@@ -233,22 +235,38 @@ Drawing::Drawing(const VoxelDomain& domain, const std::vector<double>& depth, co
 /** Short chains between hubs become part of one. */
 void Drawing::join_hubs() {
   const auto count = static_cast<std::size_t>(graph_.size());
-  above_.resize(count), deepest_.resize(count), nodes_.assign(count, no_index), at_.resize(count);
-  for (std::int32_t n = 0; n < graph_.size(); ++n) above_[n] = deepest_[n] = n;
+  above_.resize(count), deepest_.resize(count), nodes_.assign(count, no_index), at_.resize(count), hubs_.resize(count);
+  for (std::int32_t n = 0; n < graph_.size(); ++n) {
+    above_[n] = deepest_[n] = n;
+    if (graph_.degree(n) > 2) hubs_[n].assign(1, n);
+  }
   joined_.resize(chains_.size()), drawn_.resize(chains_.size());
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     if (!graph_.close_together(chains_[c])) continue;
-    joined_[c] = 1;
-    for (const std::int32_t n : chains_[c]) {
-      const std::int32_t a = root_of(above_, n), b = root_of(above_, chains_[c].front());
-      if (a == b) continue;
-      above_[std::max(a, b)] = std::min(a, b);
-      std::int32_t& best = deepest_[std::min(a, b)];
-      const std::int32_t other = deepest_[std::max(a, b)];
-      if (graph_.depth(other) > graph_.depth(best) + 1e-6 ||
-          (std::abs(graph_.depth(other) - graph_.depth(best)) <= 1e-6 && other < best))
-        best = other;
+    const std::int32_t a = root_of(above_, chains_[c].front()), b = root_of(above_, chains_[c].back());
+    if (a == b) {
+      joined_[c] = 1;
+      continue;
     }
+    // The deepest place along, and of what is joined there already; from all of it, the straight way there is inside.
+    std::int32_t best = deepest_[a];
+    const auto deeper = [&](std::int32_t n) {
+      const double more = graph_.depth(n) - graph_.depth(best);
+      return more > 1e-6 || (more > -1e-6 && n < best);
+    };
+    if (deeper(deepest_[b])) best = deepest_[b];
+    for (const std::int32_t n : chains_[c]) {
+      if (deeper(n)) best = n;
+    }
+    const auto near = [&](std::int32_t n) {
+      return (graph_.place(n) - graph_.place(best)).norm() <= std::max(meeting * (graph_.depth(n) + graph_.depth(best)), nearby);
+    };
+    if (!std::all_of(hubs_[a].begin(), hubs_[a].end(), near) || !std::all_of(hubs_[b].begin(), hubs_[b].end(), near)) continue;
+    joined_[c] = 1;
+    above_[b] = a;
+    deepest_[a] = best;
+    hubs_[a].insert(hubs_[a].end(), hubs_[b].begin(), hubs_[b].end());
+    hubs_[b].clear();
   }
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     if (joined_[c]) continue;

@@ -58,11 +58,15 @@ bool is_medial(const VoxelDomain& domain, const std::vector<double>& surface_dis
 
 std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
                                  const SpherePackingOptions& options) {
+  return pack_candidates(domain, surface_distance, options, medial_voxels(domain, surface_distance, options.medial_slope));
+}
+
+std::vector<std::uint8_t> medial_voxels(const VoxelDomain& domain, const std::vector<double>& surface_distance, double slope) {
   std::vector<std::uint8_t> medial(surface_distance.size());
   for (std::size_t v = 0; v < medial.size(); ++v) {
-    medial[v] = is_medial(domain, surface_distance, static_cast<std::int32_t>(v), options.medial_slope);
+    medial[v] = is_medial(domain, surface_distance, static_cast<std::int32_t>(v), slope);
   }
-  return pack_candidates(domain, surface_distance, options, medial);
+  return medial;
 }
 
 std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector<double>& surface_distance,

@@ -33,7 +33,10 @@ struct SpherePackingOptions {
 std::vector<Sphere> pack_spheres(const VoxelDomain& domain, const std::vector<double>& surface_distance,
                                  const SpherePackingOptions& options);
 
-/** The same where a voxel may be a center if it is a candidate (or its part's first), whatever `medial_slope` says. */
+/** 1 for the voxels near the medial axis: those from which the distance to the surface rises by no more than `slope` of the way. */
+std::vector<std::uint8_t> medial_voxels(const VoxelDomain& domain, const std::vector<double>& surface_distance, double slope);
+
+/** As pack_spheres, where a voxel may be a center if it is a candidate (or its part's first), whatever `medial_slope` says. */
 std::vector<Sphere> pack_candidates(const VoxelDomain& domain, const std::vector<double>& surface_distance,
                                     const SpherePackingOptions& options, const std::vector<std::uint8_t>& candidates);
 
