@@ -99,6 +99,19 @@ CurveSkeleton skeleton_of(const Solid& body) {
   return curve_skeleton(body.domain, body.depth);
 }
 
+Solid bar(int resolution) {
+  const Vector3 low(0, 0, 0), high(10, 2, 2);
+  return solid_on(*make_grid(low, high, resolution), [=](const Vector3& p) { return (p - low).cwiseMin(high - p).minCoeff(); });
+}
+
+void check_rounding(const Solid& body) {
+  Solid noisy = body;
+  for (std::size_t v = 0; v < noisy.depth.size(); ++v) noisy.depth[v] *= 1 + static_cast<double>(v * 7919 % 13) * 1e-15;
+  const CurveSkeleton skeleton = skeleton_of(body), again = skeleton_of(noisy);
+  REQUIRE(again.nodes.size() == skeleton.nodes.size());
+  for (std::size_t n = 0; n < again.nodes.size(); ++n) CHECK((again.nodes[n].place - skeleton.nodes[n].place).norm() < 1e-12);
+}
+
 Solid ring(int resolution, double thickness) {
   return solid_on(*make_grid({-1.3, -1.3, -0.3}, {1.3, 1.3, 0.3}, resolution),
                   [=](const Vector3& p) { return thickness - (p - Vector3(p[0], p[1], 0).normalized()).norm(); });
@@ -138,26 +151,24 @@ TEST_CASE("a quadruped has branches for legs, neck and tail, and one for the tor
 
 TEST_CASE("a Y has three branches, a bar one with two free ends") {
   const Capsules capsules{{{0, 0, 0}, {0, -1, 0}, 0.12}, {{0, 0, 0}, {0.7, 0.8, 0}, 0.12}, {{0, 0, 0}, {-0.7, 0.8, 0.1}, 0.12}};
-  const Solid body = solid_of(capsules, 64);
-  const CurveSkeleton skeleton = skeleton_of(body);
+  const Solid fork = solid_of(capsules, 64);
+  const CurveSkeleton skeleton = skeleton_of(fork);
   CHECK(skeleton.branches.size() == 3);
   CHECK(tips(skeleton).size() == 3);
   CHECK(skeleton.hubs.size() == 1);
-  check_limbs(skeleton, body, capsules);
+  check_limbs(skeleton, fork, capsules);
   CHECK((skeleton.nodes[skeleton.hubs[0]].place - Vector3(0, 0, 0)).norm() < 0.12);
 
   for (const int resolution : {20, 37, 64}) {
     CAPTURE(resolution);
-    const Vector3 low(0, 0, 0), high(10, 2, 2);
-    const Solid bar =
-        solid_on(*make_grid(low, high, resolution), [=](const Vector3& p) { return (p - low).cwiseMin(high - p).minCoeff(); });
-    const CurveSkeleton line = skeleton_of(bar);
-    check_sound(line, bar);
+    const Solid body = bar(resolution);
+    const CurveSkeleton line = skeleton_of(body);
+    check_sound(line, body);
     REQUIRE(line.branches.size() == 1);
     CHECK(line.branches[0].starts_free);
     CHECK(line.branches[0].ends_free);
     CHECK(line.hubs.empty());
-    for (double x = 1; x <= 9; x += 0.2) CHECK(nearest_node(line, {x, 1, 1}) < 2 * bar.spacing());
+    for (double x = 1; x <= 9; x += 0.2) CHECK(nearest_node(line, {x, 1, 1}) < 2 * body.spacing());
   }
 }
 
@@ -249,13 +260,41 @@ TEST_CASE("limbs in random directions are found, mirrored and shifted ones at th
   }
 }
 
+TEST_CASE("thin ears on a thick head get branches, the corners of a box none") {
+  const Capsules capsules{{{0, 0, 0}, {0, 0, 0}, 0.6},
+                          {{0, 0, 0}, {0.5, 0.7, 0}, 0.07},
+                          {{0, 0, 0}, {-0.5, 0.7, 0}, 0.07},
+                          {{0, 0, 0}, {0, -1.5, 0.1}, 0.15}};
+  const Solid body = solid_of(capsules, 80);
+  const CurveSkeleton skeleton = skeleton_of(body);
+  CHECK(tips(skeleton).size() == 3);
+  check_limbs(skeleton, body, capsules);
+
+  for (const Vector3& half : {Vector3(1, 1, 1), Vector3(2, 1, 1)}) {
+    const Solid box = solid_on(*make_grid(-half, half, 41), [&](const Vector3& p) { return (half - p.cwiseAbs()).minCoeff(); });
+    CHECK(skeleton_of(box).branches.size() == 1);
+  }
+}
+
+TEST_CASE("a slanted limb's curve is straight, without the staircase of the voxels") {
+  const Capsules capsules{{{0, 0, 0}, {1, 0.43, 0.29}, 0.09}};
+  const Solid body = solid_of(capsules, 60);
+  const CurveSkeleton skeleton = skeleton_of(body);
+  REQUIRE(skeleton.branches.size() == 1);
+  double length = 0;
+  const Indices& nodes = skeleton.branches[0].nodes;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += (skeleton.nodes[nodes[i]].place - skeleton.nodes[nodes[i - 1]].place).norm();
+  CHECK(length < 1.015 * (skeleton.nodes[nodes.back()].place - skeleton.nodes[nodes.front()].place).norm());
+  for (const SkeletonNode& node : skeleton.nodes)
+    CHECK((node.place - capsules[0].nearest(node.place)).norm() < 1.3 * body.spacing());
+}
+
 TEST_CASE("rounding of the depths changes nothing") {
-  const Solid body = solid_of(quadruped(), 64);
-  Solid noisy = body;
-  for (std::size_t v = 0; v < noisy.depth.size(); ++v) noisy.depth[v] += static_cast<double>(v * 7919 % 13) * 1e-15;
-  const CurveSkeleton skeleton = skeleton_of(body), again = skeleton_of(noisy);
-  REQUIRE(again.nodes.size() == skeleton.nodes.size());
-  for (std::size_t n = 0; n < again.nodes.size(); ++n) CHECK((again.nodes[n].place - skeleton.nodes[n].place).norm() < 1e-12);
+  for (const bool is_bar : {false, true}) {
+    CAPTURE(is_bar);
+    check_rounding(is_bar ? bar(40) : solid_of(quadruped(), 64));
+  }
 }
 
 TEST_CASE("rough skin grows no hair (seeds 1 to 5)") {

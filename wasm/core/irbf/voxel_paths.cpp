@@ -49,11 +49,11 @@ class PathSearch {
   };
 
   Neighbors neighbors(std::int32_t voxel) const;
-  void enter_part(std::int32_t first);
+  std::int32_t enter_part(std::int32_t first);
   void seed(std::int32_t voxel);
   void spread();
-  std::int32_t farthest() const;
   void find_tree(std::int32_t root);
+  std::int32_t first_on_paths(std::int32_t voxel) const;
   bool is_limb(std::int32_t end);
   void add_path(std::int32_t end);
   void cover_along(const std::vector<std::int32_t>& path, std::size_t count);
@@ -93,10 +93,7 @@ PathSearch::PathSearch(const VoxelDomain& domain, const std::vector<double>& dep
 VoxelPaths PathSearch::find() {
   for (std::int32_t v = 0; v < none_; ++v) {
     if (place_[v] >= 0 || cost_[v] != far) continue;
-    enter_part(v);
-    const std::int32_t extremity = farthest();
-    for (const std::int32_t u : part_) cost_[u] = far;
-    find_tree(extremity);
+    find_tree(enter_part(v));
   }
   return std::move(paths_);
 }
@@ -131,8 +128,8 @@ PathSearch::Neighbors PathSearch::neighbors(std::int32_t voxel) const {
   return found;
 }
 
-/** Gathers a face-connected part, weighs its voxels, and measures it from the deepest. */
-void PathSearch::enter_part(std::int32_t first) {
+/** Gathers a face-connected part and weighs its voxels. Returns the deepest. */
+std::int32_t PathSearch::enter_part(std::int32_t first) {
   part_.assign(1, first);
   mark_[first] = ++floods_;
   std::int32_t deepest = first;
@@ -150,8 +147,7 @@ void PathSearch::enter_part(std::int32_t first) {
     const double ratio = depth_[deepest] / depth_[v];
     weight_[v] = static_cast<std::int32_t>(std::lround(std::min(weight_of_deepest * ratio * ratio * ratio, heaviest)));
   }
-  seed(deepest);
-  spread();
+  return deepest;
 }
 
 void PathSearch::seed(std::int32_t voxel) {
@@ -181,16 +177,7 @@ void PathSearch::spread() {
   }
 }
 
-std::int32_t PathSearch::farthest() const {
-  std::int32_t best = part_.front();
-  for (const std::int32_t v : part_) {
-    if (length_[v] > length_[best] || (length_[v] == length_[best] && v < best)) best = v;
-  }
-  return best;
-}
-
 void PathSearch::find_tree(std::int32_t root) {
-  const std::size_t first = paths_.voxels.size() + 1;
   next_[root] = -1;
   place_[root] = static_cast<std::int32_t>(paths_.voxels.size());
   paths_.voxels.push_back(root);
@@ -201,6 +188,7 @@ void PathSearch::find_tree(std::int32_t root) {
   ends_.clear();
   for (const std::int32_t v : part_) ends_.push_back({length_[v], v});
   std::make_heap(ends_.begin(), ends_.end(), farthest_first);
+  int ways_from_root = 0;
   while (!ends_.empty()) {
     const Trial end = ends_.front();
     std::pop_heap(ends_.begin(), ends_.end(), farthest_first);
@@ -211,9 +199,11 @@ void PathSearch::find_tree(std::int32_t root) {
       std::push_heap(ends_.begin(), ends_.end(), farthest_first);
       continue;
     }
-    const bool alone = paths_.voxels.size() == first;  // the part has nothing but its root yet
     const std::int32_t other = way_around(end.voxel);
-    if (other < 0 && !alone && !is_limb(end.voxel)) continue;
+    // From the root, which may be close to an end of the part, ways lead to both sides.
+    const bool from_root = ways_from_root < 2 && first_on_paths(end.voxel) == root;
+    if (other < 0 && !from_root && !is_limb(end.voxel)) continue;
+    if (from_root) ways_from_root += other < 0 ? 1 : 2;
     add_path(end.voxel);
     if (other >= 0) {
       if (place_[other] < 0) add_path(other);
@@ -240,6 +230,11 @@ bool PathSearch::is_limb(std::int32_t end) {
   if (reach >= long_depths * depth_[path_.back()] && reach >= hardly_slender * thick) return true;
   cover_along(path_, exit);
   return false;
+}
+
+std::int32_t PathSearch::first_on_paths(std::int32_t voxel) const {
+  while (place_[voxel] < 0) voxel = next_[voxel];
+  return voxel;
 }
 
 void PathSearch::add_path(std::int32_t end) {

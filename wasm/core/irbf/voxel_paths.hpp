@@ -26,7 +26,7 @@ struct VoxelPaths {
   std::vector<std::array<std::int32_t, 2>> loops;  // places in `voxels` of two neighbors that close a way around a hole
 };
 
-/** One tree of paths for each face-connected part, its root at an extremity. `depth` holds every voxel's distance to the surface,
+/** One tree of paths for each face-connected part, its root the deepest voxel. `depth` holds every voxel's distance to the surface,
  *  at least 0 (0 on bridges), in the unit of the grid's spacing. Near-linear in the voxels. Depths that agree to a millionth of a
  *  spacing are equal, costs are whole numbers, and ties are broken by voxel number: the same on every machine. */
 VoxelPaths voxel_paths(const VoxelDomain& domain, const std::vector<double>& depth);
