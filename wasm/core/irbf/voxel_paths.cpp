@@ -29,12 +29,9 @@ struct Trial {
   std::int64_t key;
   std::int32_t voxel;
 };
-bool nearest_first(const Trial& a, const Trial& b) {
-  return a.key != b.key ? a.key > b.key : a.voxel > b.voxel;
-}
-bool farthest_first(const Trial& a, const Trial& b) {
-  return a.key != b.key ? a.key < b.key : a.voxel > b.voxel;
-}
+// Lambdas, since a heap does not inline what it gets by a pointer.
+constexpr auto nearest_first = [](const Trial& a, const Trial& b) { return a.key != b.key ? a.key > b.key : a.voxel > b.voxel; };
+constexpr auto farthest_first = [](const Trial& a, const Trial& b) { return a.key != b.key ? a.key < b.key : a.voxel > b.voxel; };
 
 class PathSearch {
  public:
@@ -186,7 +183,9 @@ void PathSearch::find_tree(std::int32_t root) {
   spread();
   cover(root);
   ends_.clear();
-  for (const std::int32_t v : part_) ends_.push_back({length_[v], v});
+  for (const std::int32_t v : part_) {
+    if (!covered_[v]) ends_.push_back({length_[v], v});
+  }
   std::make_heap(ends_.begin(), ends_.end(), farthest_first);
   int ways_from_root = 0;
   while (!ends_.empty()) {
