@@ -276,6 +276,33 @@ TEST_CASE("thin ears on a thick head get branches, the corners of a box none") {
   }
 }
 
+TEST_CASE("a limb that is thickest near an end is followed to both") {
+  const Capsules capsules{{{0.34, 0, 0}, {0.34, 0, 0}, 0.24}, {{0.34, 0, 0}, {0, 0, 0}, 0.2}, {{0.34, 0, 0}, {1.5, 0, 0}, 0.2}};
+  for (const int resolution : {40, 60}) {
+    const CurveSkeleton skeleton = skeleton_of(solid_of(capsules, resolution));
+    CHECK(skeleton.branches.size() == 1);
+    CHECK(nearest_node(skeleton, {0, 0, 0}) < 0.1);
+    CHECK(nearest_node(skeleton, {1.5, 0, 0}) < 0.1);
+  }
+}
+
+TEST_CASE("every tip is outside the ball at the place that its branch grows from, however long a stub is") {
+  for (double length = 0.3; length < 0.8; length += 0.02) {
+    CAPTURE(length);
+    for (const double thickness : {0.06, 0.12, 0.2}) {
+      CAPTURE(thickness);
+      const Solid body = solid_of({{{-1, 0, 0}, {1, 0.1, 0}, 0.3}, {{0, 0, 0}, {0.1, length, 0.05}, thickness}}, 56);
+      const CurveSkeleton skeleton = skeleton_of(body);
+      CHECK(skeleton.branches.size() == (skeleton.hubs.empty() ? 1 : 3));
+      if (length > 0.7) CHECK(skeleton.hubs.size() == 1);
+      for (const SkeletonBranch& branch : skeleton.branches) {
+        const SkeletonNode &from = skeleton.nodes[branch.nodes.front()], &to = skeleton.nodes[branch.nodes.back()];
+        if (branch.ends_free && !branch.starts_free) CHECK((to.place - from.place).norm() > from.radius + 0.5 * body.spacing());
+      }
+    }
+  }
+}
+
 TEST_CASE("a slanted limb's curve is straight, without the staircase of the voxels") {
   const Capsules capsules{{{0, 0, 0}, {1, 0.43, 0.29}, 0.09}};
   const Solid body = solid_of(capsules, 60);
