@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/distance/inner_depth.hpp"
 #include "core/irbf/voxel_paths.hpp"
 
 namespace handlebody {
 namespace {
 
 // Lengths of the graph are in spacings.
-constexpr double corner = 1.75;           // radii from the middle of a box to its corner, and a little
+constexpr double to_corner = 1.75;        // radii from the middle of a box to its corner, and a little
 constexpr double rounding_of_ends = 0.8;  // an end is where the radius has fallen to this part of that before
 constexpr double margin = 1;              // what a branch must reach beyond the ball that it grows from
 // Places where curves meet are one if they are at most this part of the sum of their radii apart: two spheres of 90% would overlap.
@@ -126,7 +127,7 @@ void PathGraph::trim_ends() {
     const Chain chain = follow(end, to);
     double largest = 0;
     for (const std::int32_t n : chain) {
-      if (distance(n, end) > corner * depths_[n] + 0.5) break;
+      if (distance(n, end) > to_corner * depths_[n] + 0.5) break;
       largest = std::max(largest, depths_[n]);
     }
     for (std::size_t i = 0; i + 1 < chain.size() && depths_[chain[i]] < rounding_of_ends * largest; ++i) remove(chain[i]);
@@ -373,31 +374,6 @@ Indices tips(const CurveSkeleton& skeleton) {
   sort(found, [](std::uint32_t u, std::uint32_t v) { return u < v; });
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
-}
-
-double inner_depth(const VoxelDomain& domain, const std::vector<double>& depth, const Vector3& point) {
-  const double h = domain.grid().spacing;
-  const Vector3 at = (point - domain.grid().origin) / h;
-  const Vector3 low = at.array().floor(), part = at - low;
-  double mean = 0, lowest = 0, sure = 0;
-  bool surrounded = true;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 offset(corner & 1, corner >> 1 & 1, corner >> 2);
-    double weight = 1;
-    for (int a = 0; a < 3; ++a) weight *= offset[a] > 0 ? part[a] : 1 - part[a];
-    const Vector3 cell = low + offset;
-    const std::int32_t v = domain.number(int(cell[0]), int(cell[1]), int(cell[2]));
-    if (v >= 0) sure = std::max(sure, depth[v] - h * (part - offset).norm());
-    if (weight <= 0) continue;
-    const double d = v >= 0 ? depth[v] : 0;
-    surrounded &= v >= 0;
-    mean += weight * d;
-    lowest = lowest > 0 ? std::min(lowest, d) : d;
-  }
-  if (!surrounded || lowest <= 0) return sure;
-  // Level sets of a distance d bend outward by 1/d at most, so the mean of the corners exceeds it by half the variance over d.
-  const double variance = h * h * (part.array() * (1 - part.array())).sum();
-  return std::max(sure, mean - variance / (2 * lowest));
 }
 
 }  // namespace handlebody

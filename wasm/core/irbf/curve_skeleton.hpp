@@ -37,15 +37,10 @@ struct CurveSkeleton {
  *    arms has one hub.
  *  - A ring is a branch that ends at the node where it starts, or hangs on a hub by both ends; neither end is free.
  *
- *  Near-linear in the voxels: 130,000 take about 0.2 s, native. The same on every machine but for the last digits of places. */
+ *  Near-linear in the voxels: 125,000 take 0.25 s, native. The same on every machine but for the last digits of places. */
 CurveSkeleton curve_skeleton(const VoxelDomain& domain, const std::vector<double>& depth);
 
 /** Nodes where a branch ends freely, each once, ascending. */
 Indices tips(const CurveSkeleton& skeleton);
-
-/** How far the surface is at least from a point inside, in the unit of the spacing; 0 outside the domain. Exact at voxel centers,
- *  and otherwise from the voxels around: their trilinear mean less what the curvature of level sets can make of it, or what a
- *  distance that changes at rate 1 must be, whichever is more. */
-double inner_depth(const VoxelDomain& domain, const std::vector<double>& depth, const Vector3& point);
 
 }  // namespace handlebody
