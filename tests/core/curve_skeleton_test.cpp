@@ -9,7 +9,6 @@
 #include <string>
 
 #include "capsule_trees.hpp"
-#include "core/irbf/voxel_paths.hpp"
 
 using namespace handlebody;
 using namespace handlebody::test;
@@ -346,15 +345,4 @@ TEST_CASE("rough skin grows no hair (seeds 1 to 20)") {
     CHECK(long_branches == 1);  // what the noise cut off are parts of their own
     CHECK(skeleton.hubs.empty());
   }
-}
-
-TEST_CASE("limbs that touch by edges or corners of voxels alone are not joined") {
-  const Grid grid = *make_grid({0, 0, 0}, {1, 1, 1}, 16);
-  std::vector<std::uint32_t> voxels;
-  for (int i = 0; i < 6; ++i) voxels.push_back(static_cast<std::uint32_t>(grid.linear(3 + i, 5, 5)));
-  for (int i = 0; i < 6; ++i) voxels.push_back(static_cast<std::uint32_t>(grid.linear(9 + i, 6, 5)));
-  std::sort(voxels.begin(), voxels.end());
-  const VoxelDomain domain(grid, voxels);
-  const VoxelPaths paths = voxel_paths(domain, std::vector<double>(voxels.size(), 0.3 * grid.spacing));
-  CHECK(std::count(paths.toward.begin(), paths.toward.end(), -1) == 2);
 }
