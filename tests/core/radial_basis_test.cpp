@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -196,4 +197,17 @@ TEST_CASE("what a basis cannot be made of is named") {
   }
   CHECK(refused(plain(KernelKind::thin_plate, 1, 0)).find("degree 1") != std::string::npos);
   CHECK(refused(plain(KernelKind::gaussian, -1)).find("-1") != std::string::npos);
+}
+
+TEST_CASE("orders that a kernel cannot have are refused, however large") {
+  constexpr int least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
+  const Matrix points = Matrix::Identity(3, 3);
+  for (const int order : {least, least / 2 - 1, -1, 0, 1, 9, most / 2 + 1, most}) {
+    RadialBasisOptions options;
+    options.kernel = Kernel::of(KernelKind::polyharmonic, 1, 3, order);
+    options.order = order;
+    const auto made = RadialBasis::create(points, points, options);
+    REQUIRE_FALSE(made);
+    CHECK(made.error().code == HB_ERROR_INVALID_OPTION);
+  }
 }

@@ -20,7 +20,7 @@ Error option_error(std::initializer_list<Word> message, std::initializer_list<Wo
 Result<Done> check_options(const RadialBasisOptions& options, Index dimension, Index centers) {
   const Kernel& kernel = options.kernel;
   const bool has_order = kernel.kind == KernelKind::polyharmonic || kernel.kind == KernelKind::clamped_plate;
-  if (has_order && (options.order > 8 || 2 * options.order <= dimension))
+  if (has_order && (options.order > 8 || options.order <= dimension / 2))
     return dimension < 16 ? option_error({"Order ", options.order, " is not possible in ", dimension, " dimensions."},
                                          {"The order of this kernel is more than half the dimension, and 8 at most: use order ",
                                           dimension / 2 + 1, "."})
