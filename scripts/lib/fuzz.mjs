@@ -137,6 +137,7 @@ export async function fuzz(folder, target, { seconds, runs, seed }) {
   ];
   const common = [
     `-timeout=${TIMEOUT}`,
+    `-report_slow_units=${TIMEOUT}`,
     '-rss_limit_mb=3000',
     `-max_len=${LONGEST}`,
     '-len_control=0',

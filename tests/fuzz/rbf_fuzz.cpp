@@ -27,7 +27,8 @@ hb_rbf_options choose(Bytes& bytes, const Scattered& data, std::vector<double>& 
   options.width_choice = bytes.option(0, bytes.byte() < 200 ? 0 : 2);
   options.center_count = data.count;
   if (bytes.byte() < 60) {
-    options.center_count = bytes.from_to(1, std::min(data.count, 50u));
+    // A robust fit at each of some thirty widths that are tried: few centers, to stay below a second.
+    options.center_count = bytes.from_to(1, std::min(data.count, options.width_choice == 2 ? 8u : 50u));
     centers = bytes.numbers(options.center_count * data.dimension);
     if (bytes.flip()) std::copy_n(data.points.begin(), centers.size(), centers.begin());
     options.centers = centers.data();

@@ -49,8 +49,8 @@ extern "C" {
 
 int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irbf** out) {
   handlebody::making();
-  if (given->constraints > 1 || given->precision > 1 || given->sphere_fit > 1 || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
-      given->order < 2 || given->order > 8) {
+  if (given->constraints > 1 || given->precision > 1 || given->sphere_fit > 1 ||
+      given->kernel > static_cast<uint32_t>(KernelKind::custom) || given->order < 2 || given->order > 8) {
     return fail({HB_ERROR_INVALID_OPTION,
                  {"The number of a kernel, its order, the constraints, the precision or the fit of spheres is unknown."},
                  {"Use those that the header lists."},
