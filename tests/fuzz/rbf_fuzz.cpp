@@ -27,12 +27,14 @@ hb_rbf_options choose(Bytes& bytes, const Scattered& data, std::vector<double>& 
   options.width_choice = bytes.option(0, bytes.byte() < 200 ? 0 : 2);
   options.center_count = data.count;
   if (bytes.byte() < 60) {
-    // A robust fit at each of some thirty widths that are tried: few centers, to stay below a second.
-    options.center_count = bytes.from_to(1, std::min(data.count, options.width_choice == 2 ? 8u : 50u));
+    options.robust = bytes.option(0, 2);
+    // The least median takes hundreds of fits, at each of some thirty widths where one is sought: few centers, to stay below a
+    // second.
+    const std::uint32_t most = options.robust != 2 ? 50 : options.width_choice == 2 ? 4 : 16;
+    options.center_count = bytes.from_to(1, std::min(data.count, most));
     centers = bytes.numbers(options.center_count * data.dimension);
     if (bytes.flip()) std::copy_n(data.points.begin(), centers.size(), centers.begin());
     options.centers = centers.data();
-    options.robust = bytes.option(0, 2);
   }
   if (bytes.byte() < 40) {
     for (std::uint32_t i = 0; i < options.center_count; ++i) widths.push_back(bytes.positive());
