@@ -28,8 +28,9 @@ hb_rbf_options choose(Bytes& bytes, const Scattered& data, std::vector<double>& 
   options.center_count = data.count;
   if (bytes.byte() < 60) {
     options.robust = bytes.option(0, 2);
-    // The least median takes hundreds of fits, at each of some thirty widths where one is sought: few centers, to stay below a
+    // The least median takes 3,000 fits, and at each of some thirty widths where one is sought: few unknowns, to stay below a
     // second.
+    if (options.robust == 2) options.degree = std::min(options.degree, 1);
     const std::uint32_t most = options.robust != 2 ? 50 : options.width_choice == 2 ? 4 : 16;
     options.center_count = bytes.from_to(1, std::min(data.count, most));
     centers = bytes.numbers(options.center_count * data.dimension);
