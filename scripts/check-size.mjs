@@ -35,7 +35,7 @@ const PAGES = [
     later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json)/, /^three\/farthest/],
     // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped; 411 and 252 before
     // the wasm grew.
-    budget: { 'with three.js': 422_000, without: 263_000 },
+    budget: { 'with three.js': 424_000, without: 265_500 },
   },
   {
     name: 'one tag',

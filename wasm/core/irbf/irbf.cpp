@@ -115,14 +115,14 @@ std::unique_ptr<const FrameKernel> Irbf::make_handle_kernel(const ReducedSystem&
 
 Result<Done> Irbf::check_shapes() const {
   for (std::size_t s = 0; s < shapes_.size(); s += shape_size) {
-    const Eigen::Map<const Matrix3> shape(&shapes_[s]);  // transposed, which changes neither size nor determinant
+    const double* const shape = &shapes_[s];
     const auto sphere = static_cast<std::int64_t>(s / shape_size);
-    if (!(shape.array().abs() <= largest_stretch).all()) {  // not by maxCoeff(), which may pass over NaN
+    if (!std::all_of(shape, shape + shape_size, [](double x) { return std::abs(x) <= largest_stretch; })) {
       return Error(HB_ERROR_TARGET_NOT_FINITE,
                    {"The shape of sphere ", sphere, " has a number that is not finite, or beyond 1000."},
                    {"Use a linear map near the identity, which keeps the sphere."}, HB_CULPRIT_SPHERE, sphere);
     }
-    const double volume = shape.determinant();
+    const double volume = Eigen::Map<const Matrix3>(shape).determinant();
     if (volume >= least_volume) continue;
     return Error(HB_ERROR_SHAPE_INVERTED,
                  {"The shape of sphere ", sphere, " turns it inside out or flat: its determinant is ", volume, "."},

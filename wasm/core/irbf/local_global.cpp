@@ -46,12 +46,16 @@ void LocalGlobal::set_system(const MatrixXd& hat) {
 }
 
 void LocalGlobal::shape(const double* shapes) {
-  using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   for (Index b = 0; b < squares_.size(); ++b) {
-    const Matrix3 shape = Eigen::Map<const RowMajor3>(shapes + 9 * b);
-    const auto edges = edges_.middleRows<3>(3 * b);
-    shaped_.middleRows<3>(3 * b).noalias() = edges * shape.transpose();
-    unshaped_[b] = closest_rotation(edges.transpose() * shaped_.middleRows<3>(3 * b));
+    Matrix3 covariance = Matrix3::Zero();  // Σ e (S e)ᵀ
+    for (Index i = 3 * b; i < 3 * b + 3; ++i)
+      for (Index row = 0; row < 3; ++row) {
+        double sum = 0;
+        for (Index k = 0; k < 3; ++k) sum += shapes[9 * b + 3 * row + k] * edges_(i, k);
+        shaped_(i, row) = sum;
+        for (Index k = 0; k < 3; ++k) covariance(k, row) += edges_(i, k) * sum;
+      }
+    unshaped_[b] = closest_rotation(covariance);
     // What only stretches turns nothing, by rounding either.
     if ((unshaped_[b] - Matrix3::Identity()).squaredNorm() < rounding * rounding) unshaped_[b].setIdentity();
   }
@@ -63,14 +67,16 @@ void LocalGlobal::rest(double scale) {
 }
 
 void LocalGlobal::measure() {
-  for (Index b = 0; b < squares_.size(); ++b) squares_[b] = shaped_.middleRows<3>(3 * b).squaredNorm();
+  for (Index b = 0; b < squares_.size(); ++b) squares_[b] = 0;
+  for (Index i = 0; i < shaped_.size(); ++i) squares_[i / 9] += shaped_.data()[i] * shaped_.data()[i];
 }
 
 double LocalGlobal::energy(const std::vector<Matrix3>& maps) {
   // What is solved for are displacements: √w (M_b S − I) e.
-  for (Index b = 0; b < std::ssize(maps); ++b)
-    right_hand_side_.middleRows<3>(3 * b).noalias() =
-        shaped_.middleRows<3>(3 * b) * maps[b].transpose() - edges_.middleRows<3>(3 * b);
+  for (Index i = 0; i < edges_.rows(); ++i) {
+    const Vector3 mapped = maps[i / 3] * shaped_.row(i).transpose();
+    for (Index axis = 0; axis < 3; ++axis) right_hand_side_(i, axis) = mapped[axis] - edges_(i, axis);
+  }
   for (Index axis = 0; axis < 3; ++axis)
     image_.col(axis).noalias() = hat_->selfadjointView<Eigen::Lower>() * right_hand_side_.col(axis);
   return right_hand_side_.cwiseProduct(right_hand_side_ - image_).sum();

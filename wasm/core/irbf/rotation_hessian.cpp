@@ -35,22 +35,28 @@ RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, Spher
   gradient_.resize(hessian.rows());
   for (Index b = 0; b < spheres; ++b) {
     for (Index a = b; a < spheres; ++a) {
-      // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm σ move an edge by Jₑ (ω, σ) = ω × e + σ e.
-      Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
+      // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm σ move an edge by Jₑ (ω, σ) = ω × e + σ e. Element by element, which
+      // compiles to half the bytes of Eigen's blocks.
+      double* const block = &hessian(freedoms_ * a, freedoms_ * b);
       for (Index i = 3 * a; i < 3 * a + 3; ++i) {
         for (Index j = 3 * b; j < 3 * b + 3; ++j) {
           const double k = (i == j ? 1 + damping : 0) - hat(i, j);
           const Vector3 e = edges.row(i), f = edges.row(j);
           const double along = e.dot(f);
-          block.topLeftCorner<3, 3>() += k * (along * Matrix3::Identity() - f * e.transpose());  // [e]×ᵀ [f]×
+          for (Index column = 0; column < 3; ++column) {
+            double* const to = block + column * hessian.rows();
+            for (Index row = 0; row < 3; ++row) to[row] += k * ((row == column ? along : 0) - f[row] * e[column]);  // [e]×ᵀ [f]×
+          }
           if (freedoms_ == 3) continue;
-          const Vector3 across = k * e.cross(f);
-          block.topRightCorner<3, 1>() += across;
-          block.bottomLeftCorner<1, 3>() -= across.transpose();
-          block(3, 3) += k * along;
+          const Vector3 across = e.cross(f);
+          double* const last = block + 3 * hessian.rows();
+          for (Index axis = 0; axis < 3; ++axis) {
+            last[axis] += k * across[axis];
+            block[axis * hessian.rows() + 3] -= k * across[axis];
+          }
+          last[3] += k * along;
         }
       }
-      hessian.block(freedoms_ * a, freedoms_ * b, freedoms_, freedoms_) = block.topLeftCorner(freedoms_, freedoms_);
     }
   }
   factor_.emplace(std::move(hessian));
