@@ -74,6 +74,20 @@ Matrix3 nearest_rotation_by_svd(const Matrix3& m) {
 
 }  // namespace
 
+TEST_CASE("a sphere without extent stays as it is, where spheres may grow, too") {
+  Points edges = Points::Zero(6, 3);
+  edges.topRows(3).setIdentity();
+  edges.bottomRows(3) = 1e-310 * Matrix3::Identity();
+  LocalGlobal iterations(edges, Vector::Ones(6), SphereFit::similarity);
+  const MatrixXd hat = .5 * MatrixXd::Identity(7, 7);
+  iterations.set_system(hat);
+  iterations.constraints().setOnes();
+  iterations.start(iterations.energy(iterations.maps()));
+  const LocalGlobalReport report = iterations.run({});
+  CHECK(std::isfinite(report.energy));
+  for (const Matrix3& map : iterations.maps()) CHECK(map.allFinite());
+}
+
 TEST_CASE("the energy is rhsᵀ(I − hat) rhs, its right-hand side √w (R − I) e over the constraints (seed 161)") {
   const SmallSystem system(161);
   const MatrixXd displacements = system.random_displacements(1);

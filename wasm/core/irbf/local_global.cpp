@@ -16,6 +16,8 @@ constexpr Index window = 8;
 constexpr double rounding = 1e-12;
 /** A sphere that shrinks to nothing could not turn any more. */
 constexpr double least_scale = 1e-3;
+/** One that is nothing at rest keeps its size: there is nothing to tell another by. */
+constexpr double least_square = 1e-200;
 
 }  // namespace
 
@@ -92,7 +94,8 @@ void LocalGlobal::start(double energy) {
 /** Procrustes, eq. (12), and where spheres may grow the scale that goes with the rotation: tr(Rᵀ H)/Σ w‖S e‖². */
 Matrix3 LocalGlobal::closest_map(const Matrix3& covariance, Index sphere) const {
   Matrix3 map = closest_rotation(covariance);
-  if (fit_ == SphereFit::similarity) map *= std::max(map.cwiseProduct(covariance).sum() / squares_[sphere], least_scale);
+  if (fit_ == SphereFit::similarity && squares_[sphere] > least_square)
+    map *= std::max(map.cwiseProduct(covariance).sum() / squares_[sphere], least_scale);
   return map;
 }
 
