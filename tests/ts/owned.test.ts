@@ -18,7 +18,7 @@ function fakeHeap({ blocks = 100, trap = false } = {}): { heap: Heap; log: strin
       if (trap) throw new WebAssembly.RuntimeError('unreachable');
       log.push(`free ${pointer}`);
     },
-    hb_abi_version: () => 5,
+    hb_abi_version: () => 6,
   };
   return { heap: new Heap(exports as unknown as RuntimeExports), log };
 }

@@ -1,4 +1,5 @@
-/** What handles' places leave to be said: the nearest place inside, and turns that no handle holds. */
+/** Handles' places: read, and what they leave to be said: the nearest place inside, and turns that no handle holds. */
+import { list, named, optional, options, row, told } from './arguments.ts';
 import { boxOf } from './box.ts';
 import { HandlebodyError } from './errors.ts';
 import type { BodyData, IrbfWarning, Vec3 } from './types.ts';
@@ -61,4 +62,30 @@ export function shiftRows(
 ): void {
   for (let row = 0; row < rows.length; row += stride)
     for (let axis = 0; axis < 3; axis++) rows[row + axis] = (rows[row + axis] as number) + sign * (origin[axis] as number);
+}
+
+/** Where handles sit, checked: a vertex or a place. */
+export function readHandles(given: unknown, vertexCount: number) {
+  return list(given, 'handles', 'handles, such as { vertex: 0 } or { at: [x, y, z] }', (handle, name, index) => {
+    const culprit = { kind: 'handle', index } as const;
+    const readers = {
+      vertex: optional((vertex: unknown) => {
+        if (Number.isInteger(vertex) && (vertex as number) >= 0 && (vertex as number) < vertexCount) return vertex as number;
+        throw new HandlebodyError('handle-out-of-range', {
+          message: `Handle ${index} sits on vertex ${told(vertex)}, but the mesh has ${vertexCount} vertices.`,
+          remedy: `Use a vertex number from 0 to ${vertexCount - 1}.`,
+          culprit,
+        });
+      }),
+      at: optional((at, key) => row(at, `${name}.${key}`, 3, { ...culprit, code: 'handle-not-finite' })),
+      kind: named(['position', 'rotation']),
+    };
+    const read = options(handle, readers, { kind: 'position' }, name);
+    if ((read.vertex === undefined) !== (read.at === undefined)) return read;
+    throw new HandlebodyError('invalid-option', {
+      message: `The "${name}" has ${read.at ? 'a vertex and a place' : 'neither a vertex nor a place'}.`,
+      remedy: 'Give each handle one of { vertex } and { at: [x, y, z] }.',
+      culprit,
+    });
+  });
 }

@@ -1,24 +1,8 @@
 import { LAYOUT } from './abi.generated.ts';
-import {
-  checkNames,
-  checkRoom,
-  flag,
-  indices,
-  list,
-  type Numbers,
-  named,
-  number,
-  numbers,
-  object,
-  optional,
-  options,
-  row,
-  told,
-  whole,
-} from './arguments.ts';
+import { checkNames, checkRoom, flag, indices, type Numbers, number, numbers, object, row, whole } from './arguments.ts';
 import { bound } from './bound.ts';
 import { HandlebodyError } from './errors.ts';
-import { shiftRows, twistWarning, withNearest } from './handle-places.ts';
+import { readHandles, shiftRows, twistWarning, withNearest } from './handle-places.ts';
 import type { Heap } from './heap.ts';
 import { checkHeld, checkScales, TARGET_SIZE } from './held-targets.ts';
 import { readBody, writeBody } from './irbf-body.ts';
@@ -388,29 +372,3 @@ const SOLVE = {
   tolerance: number('a number from 0 on', (x) => x >= 0),
   accelerate: flag,
 };
-
-/** Where handles sit, checked: a vertex or a place. */
-function readHandles(given: unknown, vertexCount: number) {
-  return list(given, 'handles', 'handles, such as { vertex: 0 } or { at: [x, y, z] }', (handle, name, index) => {
-    const culprit = { kind: 'handle', index } as const;
-    const readers = {
-      vertex: optional((vertex: unknown) => {
-        if (Number.isInteger(vertex) && (vertex as number) >= 0 && (vertex as number) < vertexCount) return vertex as number;
-        throw new HandlebodyError('handle-out-of-range', {
-          message: `Handle ${index} sits on vertex ${told(vertex)}, but the mesh has ${vertexCount} vertices.`,
-          remedy: `Use a vertex number from 0 to ${vertexCount - 1}.`,
-          culprit,
-        });
-      }),
-      at: optional((at, key) => row(at, `${name}.${key}`, 3, { ...culprit, code: 'handle-not-finite' })),
-      kind: named(['position', 'rotation']),
-    };
-    const read = options(handle, readers, { kind: 'position' }, name);
-    if ((read.vertex === undefined) !== (read.at === undefined)) return read;
-    throw new HandlebodyError('invalid-option', {
-      message: `The "${name}" has ${read.at ? 'a vertex and a place' : 'neither a vertex nor a place'}.`,
-      remedy: 'Give each handle one of { vertex } and { at: [x, y, z] }.',
-      culprit,
-    });
-  });
-}

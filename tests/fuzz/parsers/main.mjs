@@ -11,6 +11,7 @@ import { parseArgs } from 'node:util';
 import { load } from '../../../dist/wasm/ts/index.js';
 import * as assets from '../../../dist/web/assets/index.js';
 import { parseHandles } from '../../../dist/web/cli/handles.js';
+import { rounded } from '../../../scripts/lib/fuzz-results.mjs';
 import { at } from '../../../scripts/lib/paths.mjs';
 import { startCoverage } from './coverage.mjs';
 import { faultOf } from './fault.mjs';
@@ -103,8 +104,6 @@ async function fuzz(name, { runs, minutes, seed }) {
   console.log(`${name.padEnd(8)} ${JSON.stringify(figures)} (seed ${seed})`);
   return figures;
 }
-
-const rounded = (/** @type {number} */ value) => Number(value.toPrecision(3));
 
 /** Beside the figures of other targets. @param {string} name @param {object} figures @param {number} seed */
 function record(name, figures, seed) {

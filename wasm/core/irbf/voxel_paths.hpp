@@ -3,9 +3,8 @@
 // After TEASAR (Sato, Bitter, Bender, Kaufman & Nakajima, "TEASAR: tree-structure extraction algorithm for accurate and robust
 // skeletons", Pacific Graphics 2000): from the voxel that is farthest from the paths so far, the path to them that keeps from the
 // surface, until every voxel lies in a ball around a path. Different from there:
-//  - A step costs 1/depth³, which centers a path in a thin limb as it does in a torso; (1 − depth/deepest)¹⁶ hardly tells the axis
-//  of
-//    a finger from its skin.
+//  - A step costs 1/depth³, which centers a path in a thin limb as it does in a torso: (1 − depth/deepest)¹⁶ hardly tells the axis
+//    of a finger from its skin.
 //  - Paths lead to the nearest path, not to the root, so that limbs meet where they are joined.
 //  - A path is kept if it leads along a limb, by how far it reaches out of the balls compared with its own depth and theirs. A ball
 //    enlarged by a factor and a constant, as there, loses the ears of a thick head, or takes the corners of a box for limbs.
