@@ -1,4 +1,4 @@
-// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, checks, elements, figures, hostile, irbf, readers, skinning) runs that part only.
+// `npm run bench`: everything that is measured; `npm run bench -- interpolation` (or bake, checks, elements, figures, hostile, irbf, leakage, readers, skinning) runs that part only.
 import { ensureInstalled } from '../../scripts/lib/install.mjs';
 import { runMain } from '../../scripts/lib/run.mjs';
 
@@ -10,6 +10,7 @@ const PARTS = {
   hostile: async () => (await import('./hostile/main.mjs')).benchHostile(),
   interpolation: async () => (await import('./interpolation/main.mjs')).benchInterpolation(),
   irbf: async () => (await import('./irbf/main.mjs')).benchIrbf(),
+  leakage: async () => (await import('./leakage/main.mjs')).benchLeakage(),
   readers: async () => (await import('./readers/main.mjs')).benchReaders(),
   skinning: async () => (await import('./skinning/main.mjs')).benchSkinning(),
 };

@@ -32,7 +32,14 @@ struct SampledBox {
   }
 
   std::unique_ptr<CenterSampling> sample(Index count, std::vector<double> density = {}) {
-    auto sampling = std::make_unique<CenterSampling>(domain, mesh.positions, *distance, count, std::move(density));
+    CenterSamplingOptions options;
+    options.count = options.most = count;
+    options.density = std::move(density);
+    return sample({}, std::move(options));
+  }
+
+  std::unique_ptr<CenterSampling> sample(const std::vector<Sphere>& spheres, CenterSamplingOptions options) {
+    auto sampling = std::make_unique<CenterSampling>(domain, mesh.positions, *distance, spheres, std::move(options));
     double progress = 0;
     while (progress < 1) {
       const double next = sampling->step();
@@ -96,6 +103,41 @@ TEST_CASE("centers are denser where the density is") {
   const auto even = count_right(*box.sample(60)), uneven = count_right(*box.sample(60, density));
   CHECK(even < 36);
   CHECK(uneven > 44);
+}
+
+TEST_CASE("every sphere gets as many centers within three radii as are wanted, where there are vertices and room for them") {
+  SampledBox box;
+  const std::vector<Sphere> spheres{{{0.3, 0.1, 0.05}, 0.13}, {{-0.4, -0.2, -0.1}, 0.09}, {{0, 0, 0}, 0.18}, {{0, 0, 0}, 0.01}};
+  CenterSamplingOptions options;
+  options.count = 6;
+  options.most = 60;
+  options.per_sphere = 4;
+  const auto sampling = box.sample(spheres, options);
+  const Indices& centers = sampling->centers();
+  CHECK(centers.size() > 6);
+  CHECK(centers.size() < 20);
+  const auto near = [&](const Sphere& sphere) {
+    return std::count_if(centers.begin(), centers.end(), [&](std::uint32_t v) {
+      return (box.mesh.positions.row(v).transpose() - sphere.center).norm() <= 3 * sphere.radius;
+    });
+  };
+  for (std::size_t s = 0; s < 3; ++s) CHECK(near(spheres[s]) >= 4);
+  CHECK(near(spheres[3]) == 0);  // no vertex is there
+  for (std::size_t a = 0; a < centers.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) CHECK(centers[a] != centers[b]);
+  CHECK(std::ssize(sampling->distances()) == std::ssize(centers) * box.domain.size());
+
+  options.most = 8;
+  CHECK(box.sample(spheres, options)->centers().size() == 8);
+}
+
+TEST_CASE("fewer codes are taken where fewer are wanted") {
+  SampledBox box;
+  CenterSamplingOptions options;
+  options.count = options.most = 5;
+  options.most_code = 1023;
+  const auto sampling = box.sample(std::vector<Sphere>(), options);
+  CHECK(*std::max_element(sampling->distances().begin(), sampling->distances().end()) == 1023);
 }
 
 TEST_CASE("vertices far from every voxel are counted, and the farthest is named") {

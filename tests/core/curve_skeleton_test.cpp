@@ -171,6 +171,28 @@ TEST_CASE("a Y has three branches, a bar one with two free ends") {
   }
 }
 
+TEST_CASE("a smooth length is half of a limb where limbs meet, weighted by length, and the whole of what has none") {
+  const auto line = [](CurveSkeleton& skeleton, const Vector3& to, double radius) {
+    SkeletonBranch branch;
+    for (int i = 0; i <= 4; ++i) {
+      branch.nodes.push_back(static_cast<std::uint32_t>(skeleton.nodes.size()));
+      skeleton.nodes.push_back({i / 4. * to, radius});
+    }
+    skeleton.branches.push_back(branch);
+  };
+  CurveSkeleton skeleton;
+  CHECK(smooth_length(skeleton) == 0);
+  line(skeleton, {0, 0, 3}, 0.5);
+  CHECK(smooth_length(skeleton) == doctest::Approx(4));
+  line(skeleton, {0, 1, 0}, 0.1);
+  skeleton.hubs = {0};
+  CHECK(smooth_length(skeleton) == doctest::Approx(0.5 * (9 + 1) / (3 + 1)));
+  CurveSkeleton ball;
+  ball.nodes.push_back({Vector3::Zero(), 2});
+  ball.branches.push_back({{0}});
+  CHECK(smooth_length(ball) == 4);
+}
+
 TEST_CASE("a ring closes, and an arm on it hangs on a hub") {
   for (const int resolution : {40, 64}) {
     for (const double thickness : {0.12, 0.25}) {

@@ -8,6 +8,7 @@
 #include "core/irbf/irbf.hpp"
 
 using namespace handlebody;
+using test::paper_options;
 
 namespace {
 
@@ -33,7 +34,7 @@ std::unique_ptr<Irbf> bent(const Body& body, const IrbfOptions& options) {
 
 /** Iterations until the energy is within `part` of the least. */
 int iterations_to(const Body& body, bool accelerate, double part, double least) {
-  auto irbf = bent(body, {});
+  auto irbf = bent(body, paper_options());
   for (int k = 1; k < 20000; ++k) {
     const auto report = irbf->solve({1, 0, accelerate});
     REQUIRE(report);
@@ -53,7 +54,7 @@ Points positions(Irbf& irbf) {
 TEST_CASE("accelerated iterations find the minimum that plain ones find, in a small part of their number") {
   const Body body = test::baked_bar(100, 100);
   REQUIRE(body.spheres.size() >= 30);
-  auto fast = bent(body, {}), slow = bent(body, {});
+  auto fast = bent(body, paper_options()), slow = bent(body, paper_options());
   const auto least = fast->solve({5000, 1e-10, true});
   const auto plain = slow->solve({5000, 1e-8, false});
   REQUIRE(least);
@@ -72,7 +73,7 @@ TEST_CASE("accelerated iterations find the minimum that plain ones find, in a sm
 
 TEST_CASE("the energy never rises, however the iterations are cut up, and cutting them up changes nothing") {
   const Body body = test::baked_bar(100, 40);
-  auto whole = bent(body, {}), cut = bent(body, {});
+  auto whole = bent(body, paper_options()), cut = bent(body, paper_options());
   const auto at_once = whole->solve({24, 0, true});
   REQUIRE(at_once);
   double last = std::numeric_limits<double>::infinity();
@@ -88,9 +89,9 @@ TEST_CASE("the energy never rises, however the iterations are cut up, and cuttin
 
 TEST_CASE("hard constraints meet their targets exactly, and soft ones agree with them") {
   const Body body = test::baked_bar(100, 9);
-  IrbfOptions options;
+  IrbfOptions options = paper_options();
   options.constraints = ConstraintKind::hard;
-  auto hard = bent(body, options), soft = bent(body, {});
+  auto hard = bent(body, options), soft = bent(body, paper_options());
   const auto exact = hard->solve({500, 1e-9, true});
   const auto near = soft->solve({500, 1e-9, true});
   REQUIRE(exact);
@@ -115,7 +116,7 @@ TEST_CASE("every radial kernel deforms the bar, or says why not; decreasing ones
   double inverse_multiquadric = 0;
   for (unsigned kind = 0; kind <= static_cast<unsigned>(KernelKind::compact_inverse_multiquadric); ++kind) {
     CAPTURE(kind);
-    IrbfOptions options;
+    IrbfOptions options = paper_options();
     options.kernel = Kernel::of(static_cast<KernelKind>(kind), 4, 3);
     auto made = Irbf::create(body, options);
     if (!made) {
@@ -142,14 +143,14 @@ TEST_CASE("every radial kernel deforms the bar, or says why not; decreasing ones
 
 TEST_CASE("a kernel of the caller's that fails is named") {
   const Body body = test::baked_bar(30, 5);
-  IrbfOptions options;
+  IrbfOptions options = paper_options();
   options.kernel = Kernel::of(KernelKind::custom, 2, 3);
   options.kernel.custom.function = [](const void*, double s, bool) { return s > 1 ? std::nan("") : 1 - s / 2; };
   const auto refused = Irbf::create(body, options);
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == HB_ERROR_KERNEL_FAILED);
   options.kernel.custom.function = [](const void*, double s, bool) { return 1 / std::sqrt(1 + s * s); };
-  auto own = bent(body, options), built_in = bent(body, {});
+  auto own = bent(body, options), built_in = bent(body, paper_options());
   REQUIRE(own->solve({50, 1e-8, true}));
   REQUIRE(built_in->solve({50, 1e-8, true}));
   CHECK((positions(*own) - positions(*built_in)).cwiseAbs().maxCoeff() < 1e-5 * body.normalization.diagonal);
@@ -158,7 +159,7 @@ TEST_CASE("a kernel of the caller's that fails is named") {
 TEST_CASE("Fig. 9: with seven spheres, too small a λ is jerky, too large a one gives up rigidity; the chosen one is between") {
   const Body body = test::baked_bar(100, 7);
   const auto distortion = [&](double smoothness, double width) {
-    IrbfOptions options;
+    IrbfOptions options = paper_options();
     options.smoothness = smoothness;
     options.kernel.width = width;
     auto irbf = bent(body, options);
@@ -189,7 +190,7 @@ TEST_CASE("Fig. 20: fewer centers follow the spheres less") {
   double last_energy = 0;
   for (const Index centers : {50, 35, 20, 10}) {
     const Body body = test::baked_bar(centers, 20);
-    IrbfOptions options;
+    IrbfOptions options = paper_options();
     options.smoothness = 1e-6;
     auto irbf = bent(body, options);
     const auto report = irbf->solve({1000, 1e-8, true});
@@ -206,7 +207,7 @@ TEST_CASE("Fig. 20: fewer centers follow the spheres less") {
 TEST_CASE("the chosen λ does not depend on the model's size, and follows the energy's weights") {
   const Body body = test::baked_bar(60, 9);
   const auto chosen = [](const Body& from, double exponent) {
-    IrbfOptions options;
+    IrbfOptions options = paper_options();
     options.edge_exponent = exponent;
     auto irbf = Irbf::create(from, options);
     REQUIRE(irbf);
@@ -227,7 +228,7 @@ TEST_CASE(
     const Body body = test::baked_bar(100, spheres);
     CAPTURE(spheres);
     for (const FramePrecision precision : {FramePrecision::floating, FramePrecision::fixed}) {
-      IrbfOptions options;
+      IrbfOptions options = paper_options();
       options.precision = precision;
       auto irbf = bent(body, options);
       REQUIRE(irbf->solve({50, 1e-7, true}));
@@ -246,7 +247,7 @@ TEST_CASE(
 TEST_CASE("one handle carries the shape along, and two turn it") {
   const Body body = test::baked_bar(60, 9);
   for (const ConstraintKind kind : {ConstraintKind::soft, ConstraintKind::hard}) {
-    IrbfOptions options;
+    IrbfOptions options = paper_options();
     options.constraints = kind;
     auto irbf = Irbf::create(body, options);
     REQUIRE(irbf);

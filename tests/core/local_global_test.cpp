@@ -46,8 +46,8 @@ struct SmallSystem {
   }
 
   /** The iterations, with the constraint points to be displaced so. */
-  LocalGlobal iterations(const MatrixXd& displacements) const {
-    LocalGlobal made(edges, edge_scale, SphereFit::rigid);
+  LocalGlobal iterations(const MatrixXd& displacements, double volume = 0) const {
+    LocalGlobal made(edges, edge_scale, SphereFit::rigid, volume);
     made.set_system(hat);
     made.constraints() = mu * displacements;
     return made;
@@ -175,6 +175,82 @@ TEST_CASE("accelerated iterations and plain ones find one minimum, and neither e
     }
     CHECK(least[1] == doctest::Approx(least[0]).epsilon(1e-6));
     CHECK(needed[1] < needed[0]);
+  }
+}
+
+/** The energy as eq. (8) and fixed corotated elasticity have it, of the mapping x ↦ all of its rows, as a function of the image of
+ * the least squares' rows and of what their right-hand side does not reach. */
+double elastic_energy(const SmallSystem& system, const MatrixXd& image, double volume) {
+  double energy = 0;
+  for (Index b = 0; b < SmallSystem::spheres; ++b) {
+    const Matrix3 edges = system.edges.middleRows(3 * b, 3), moved = edges + image.middleRows(3 * b, 3);
+    const Matrix3 f = moved.transpose() * edges * (edges.transpose() * edges).inverse();
+    const double weight = edges.squaredNorm() / 3, growth = f.determinant() - 1;
+    energy += weight * ((f - nearest_rotation_by_svd(f)).squaredNorm() + volume * growth * growth);
+  }
+  return energy;
+}
+
+TEST_CASE("where volume is resisted, the mapping found has no gradient of the elastic energy (seeds 171 to 174)") {
+  for (unsigned seed = 171; seed <= 174; ++seed) {
+    CAPTURE(seed);
+    const double volume = seed % 2 == 0 ? 1 : 4.5;
+    const SmallSystem system(seed);
+    const MatrixXd displacements = 0.5 * system.random_displacements(seed);
+    LocalGlobal iterations = system.iterations(displacements, volume);
+    LocalGlobalOptions options;
+    options.max_iterations = 5000;
+    options.tolerance = 1e-11;
+    const LocalGlobalReport report = run_from_rest(iterations, options);
+    REQUIRE(report.converged);
+    // At the end every sphere aims where the gradient says: M = R − κ (J − 1) cof F, and the image is the least squares' for that.
+    const MatrixXd image = system.hat * iterations.right_hand_side();
+    for (Index b = 0; b < SmallSystem::spheres; ++b) {
+      const Matrix3 edges = system.edges.middleRows(3 * b, 3), moved = edges + image.middleRows(3 * b, 3);
+      const Matrix3 f = moved.transpose() * edges * (edges.transpose() * edges).inverse();
+      const Matrix3 aim = nearest_rotation_by_svd(f) - volume * (f.determinant() - 1) * f.determinant() * f.inverse().transpose();
+      CHECK((iterations.maps()[b] - aim).norm() < 1e-4 * (1 + aim.norm()));
+    }
+    // The misfit of the constraints and λ's part are what the least squares have beyond the spheres' rows.
+    const MatrixXd right = iterations.right_hand_side();
+    const double rest =
+        (right.transpose() * (right - image)).trace() - (right - image).topRows(SmallSystem::edges_count).squaredNorm();
+    CHECK(report.energy == doctest::Approx(rest + elastic_energy(system, image, volume)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("where volume is resisted, it changes less, and the energy never rises, accelerated or not (seeds 175 to 177)") {
+  for (unsigned seed = 175; seed <= 177; ++seed) {
+    CAPTURE(seed);
+    const SmallSystem system(seed);
+    const MatrixXd displacements = 0.4 * system.random_displacements(seed);
+    const auto growth = [&](double volume, bool accelerate, double& last) {
+      LocalGlobal iterations = system.iterations(displacements, volume);
+      LocalGlobalOptions options;
+      options.max_iterations = 1;
+      options.tolerance = 1e-10;
+      options.accelerate = accelerate;
+      last = iterations.energy(iterations.maps());
+      iterations.start(last);
+      for (int count = 0; count < 30000; ++count) {
+        const LocalGlobalReport report = iterations.run(options);
+        CHECK(report.energy <= last + 1e-11 * std::abs(last));
+        last = report.energy;
+        if (report.converged) break;
+      }
+      const MatrixXd image = system.hat * iterations.right_hand_side();
+      double sum = 0;
+      for (Index b = 0; b < SmallSystem::spheres; ++b) {
+        const Matrix3 edges = system.edges.middleRows(3 * b, 3), moved = edges + image.middleRows(3 * b, 3);
+        sum += std::abs(moved.determinant() / edges.determinant() - 1);
+      }
+      return sum;
+    };
+    double energy, accelerated, plain;
+    const double free = growth(0, true, energy);
+    CHECK(growth(4.5, true, accelerated) < 0.6 * free);
+    growth(4.5, false, plain);
+    CHECK(accelerated <= plain * (1 + 1e-5));
   }
 }
 

@@ -99,6 +99,52 @@ TEST_CASE("many spheres: the step is Newton's, by differences of the energy's pa
   }
 }
 
+TEST_CASE("with pressures, a step solves the whole of Newton's equations at rest (seeds 156 to 158)") {
+  for (unsigned seed = 156; seed <= 158; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    constexpr double volume = 3;
+    const Points edges = perpendicular_edges({0.3, 0.2, 0.25, 0.4});
+    const MatrixXd hat = random_hat(random, 12, 7);
+    const Columns3 residual = Columns3::NullaryExpr(12, 3, [&] { return 0.01 * normal(random); });
+    const Vector pressed = Vector::NullaryExpr(4, [&] { return 0.01 * normal(random); });
+    // How a turn (12 of them) and a pressure (4) move the edges: ω × e and q e.
+    MatrixXd j = MatrixXd::Zero(36, 16);
+    for (Index row = 0; row < 12; ++row) {
+      const Vector3 e = edges.row(row);
+      for (Index axis = 0; axis < 3; ++axis) {
+        const Vector3 turned = Vector3::Unit(axis).cross(e);
+        for (Index x = 0; x < 3; ++x) j(12 * x + row, 3 * (row / 3) + axis) = turned[x];
+      }
+      for (Index x = 0; x < 3; ++x) j(12 * x + row, 12 + row / 3) = e[x];
+    }
+    const auto through = [&](const MatrixXd& matrix) {
+      MatrixXd out(36, 16);
+      for (Index x = 0; x < 3; ++x) out.middleRows(12 * x, 12) = matrix * j.middleRows(12 * x, 12);
+      return MatrixXd(j.transpose() * out);
+    };
+    const MatrixXd unit = MatrixXd::Identity(12, 12);
+    MatrixXd newton = through(unit - hat);
+    newton.topLeftCorner(12, 12) += hessian_damping * (j.transpose() * j).topLeftCorner(12, 12);
+    // The largest over pressures, of −Σ w‖e‖² (1 + 1/κ)/3 q² besides.
+    for (Index b = 0; b < 4; ++b) newton(12 + b, 12 + b) -= (1 + 1 / (3 * volume)) * edges.middleRows(3 * b, 3).squaredNorm();
+    Vector gradient(16);
+    gradient.head(12) = (j.transpose() * Vector(residual.reshaped())).head(12);
+    gradient.tail(4) = pressed;
+    const Vector step = newton.inverse() * gradient;
+
+    RotationHessian hessian(edges, hat, SphereFit::rigid, volume);
+    REQUIRE_FALSE(hessian.empty());
+    const std::vector<Matrix3> rest(4, Matrix3::Identity());
+    std::vector<Matrix3> turned(4);
+    Vector pressure = pressed;
+    hessian.step(Columns3(edges), residual, rest, pressure, turned);
+    for (Index b = 0; b < 4; ++b) CHECK((turned[b] - rotation_by(-step.segment<3>(3 * b))).norm() < 1e-9);
+    CHECK((pressure + step.tail(4)).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("near the least energy a step comes a good deal nearer, where local/global's own hardly moves (seed 155)") {
   std::mt19937 random(155);
   std::normal_distribution<double> normal;

@@ -23,7 +23,11 @@ void choose(Bytes& bytes, const Mesh& mesh, Given& given) {
   options.resolution = bytes.option(8, bytes.byte() < 240 ? 9 : 24);
   options.method = bytes.option(0, 3);
   options.max_spheres = bytes.option(1, 8);
-  options.packing = bytes.option(0, 1);
+  options.packing = bytes.option(0, 2);
+  options.quality = bytes.option(0, 2);
+  if (bytes.byte() < 4) options.resolution = 0, options.quality = 0;  // the search takes longer than all else
+  if (bytes.byte() < 30) options.max_spheres = 0;
+  if (bytes.byte() < 30) options.center_count = 0;
   options.cloud = bytes.byte() < 30;
   if (bytes.byte() < 30) {
     for (std::uint32_t& side : options.dims) side = bytes.count(bytes.from_to(1, 5));
@@ -56,6 +60,21 @@ void read_warnings(hb_bake* bake, const Mesh& mesh) {
   }
 }
 
+void check(const hb_skeleton& skeleton, std::uint32_t spheres) {
+  std::uint32_t steps = 0;
+  for (std::uint32_t b = 0; b < skeleton.branch_count; ++b) {
+    steps += skeleton.lengths[b];
+    require(skeleton.lengths[b] > 0 && skeleton.parents[b] >= -1 && skeleton.parents[b] < static_cast<std::int64_t>(b),
+            "a branch has nodes, and a parent before it");
+  }
+  require(steps == skeleton.step_count, "the steps are those of all branches");
+  for (std::uint32_t i = 0; i < steps; ++i) require(skeleton.steps[i] < skeleton.node_count, "a step is at a node");
+  require(skeleton.sphere_count == 0 || skeleton.sphere_count == spheres, "the branches are those of all spheres");
+  for (std::uint32_t s = 0; s < skeleton.sphere_count; ++s)
+    require(skeleton.sphere_branches[s] >= -1 && skeleton.sphere_branches[s] < static_cast<std::int64_t>(skeleton.branch_count),
+            "a sphere's branch is there");
+}
+
 }  // namespace
 
 FUZZ(bytes) {
@@ -82,14 +101,18 @@ FUZZ(bytes) {
   }
   reached();
   read_warnings(bake.get(), mesh);
+  hb_skeleton skeleton{};
   if (progress < 1) {
     require(hb_bake_body(bake.get(), &body) != HB_OK, "a bake that is not finished has no body");
+    require(hb_bake_skeleton(bake.get(), &skeleton) != HB_OK, "a bake that is not finished has no skeleton");
     return;
   }
   require(hb_bake_body(bake.get(), &body) == HB_OK, "a finished bake has a body");
   require(body.vertex_count == mesh.vertex_count() && body.center_count > 0 && body.sphere_count > 0 && body.voxel_count > 0,
           "a body has all its parts");
-  const hb_irbf_options options{2, 1e-6, 100, -1, 1, 5, 0, 2, 0, bytes.below(2), 0};
+  require(hb_bake_skeleton(bake.get(), &skeleton) == HB_OK, "a finished bake has a skeleton, or an empty one");
+  check(skeleton, body.sphere_count);
+  const hb_irbf_options options{0, 1e-6, 100, 1, 0.45, 1, 5, 0, 2, 0, bytes.below(2), 0};
   Owned<hb_irbf_free> irbf;
   require(irbf.make([&](hb_irbf** out) { return hb_irbf_create(&body, &options, out); }), "IRBF takes every body that was baked");
 }

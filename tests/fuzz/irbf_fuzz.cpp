@@ -73,7 +73,7 @@ void falsify(Bytes& bytes, hb_body& body) {
   body.center_count = bytes.count(body.center_count);
   body.sphere_count = bytes.count(body.sphere_count);
   for (std::uint32_t& side : body.dims) side = bytes.wildly() ? bytes.index(side) : side;
-  for (double* number : {body.center, body.origin, &body.spacing, &body.diagonal, &body.distance_scale})
+  for (double* number : {body.center, body.origin, &body.spacing, &body.diagonal, &body.distance_scale, &body.smooth_length})
     if (bytes.wildly()) *number = bytes.number();
 }
 
@@ -87,6 +87,7 @@ void make_body(Bytes& bytes, MadeBody& made) {
   make_grid(bytes, made, low, high);
   fill(bytes, made);
   hb_body& body = made.body;
+  body.smooth_length = bytes.flip() ? 0.3 : 0;
   body.vertex_count = made.mesh.vertex_count();
   body.triangle_count = made.mesh.simplex_count();
   body.voxel_count = static_cast<std::uint32_t>(made.voxels.size());
@@ -98,8 +99,9 @@ void make_body(Bytes& bytes, MadeBody& made) {
 }
 
 hb_irbf_options choose(Bytes& bytes) {
-  hb_irbf_options options{2, 0, 100, -1, 1, 5, 0, 2, 0, 0, 0};
-  if (bytes.flip()) options.relative_width = bytes.positive();
+  hb_irbf_options options{2, 0, 100, -1, 0, 1, 5, 0, 2, 0, 0, 0};
+  if (bytes.flip()) options.relative_width = bytes.flip() ? 0 : bytes.positive();
+  if (bytes.flip()) options.poisson_ratio = bytes.byte() < 240 ? 0.45 : bytes.number();
   if (bytes.flip()) options.smoothness = bytes.positive() * (bytes.flip() ? 1e-6 : 1);
   if (bytes.byte() < 60) options.anchor_weight = bytes.positive() * 100, options.edge_exponent = bytes.number();
   options.support = bytes.positive();

@@ -52,7 +52,8 @@ const MESH: Mesh = {
   triangles: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3),
 };
 
-const fakeBake: Bake = async (shape, { onProgress, centers = 2 }) => {
+const fakeBake: Bake = async (shape, { onProgress, centers: given = 2 }) => {
+  const centers = Number(given);
   const mesh = shape as Mesh;
   for (const part of [0.25, 0.5, 1]) onProgress?.(part);
   return {

@@ -14,8 +14,18 @@ using handlebody::ConstPoints;
 struct hb_bake {
   explicit hb_bake(std::unique_ptr<Bake> begun) : bake(std::move(begun)) {}
   std::unique_ptr<Bake> bake;
-  std::vector<double> spheres;
+  std::vector<double> spheres, nodes;
+  std::vector<uint32_t> steps, lengths;
+  std::vector<int32_t> parents;
 };
+
+namespace {
+
+int32_t unfinished() {
+  return handlebody::fail({HB_ERROR_INTERNAL, {"The bake is not finished."}, {"Step it until its progress is 1."}});
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -28,11 +38,13 @@ int32_t hb_mesh_check_size(double vertex_count, double triangle_count) {
 int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count,
                       const hb_bake_options* given, hb_bake** bake) {
   handlebody::making();
-  if (given->method >= handlebody::distance_method_count || given->packing >= handlebody::sphere_packing_count) {
-    return handlebody::fail({HB_ERROR_INVALID_OPTION,
-                             {"There is no distance method ", given->method, " or no packing ", given->packing, "."},
-                             {"Use the numbers that the header lists."},
-                             HB_CULPRIT_OPTION});
+  if (given->method >= handlebody::distance_method_count || given->packing >= handlebody::sphere_packing_count ||
+      given->quality >= handlebody::bake_quality_count) {
+    return handlebody::fail(
+        {HB_ERROR_INVALID_OPTION,
+         {"There is no distance method ", given->method, ", no packing ", given->packing, " or no quality ", given->quality, "."},
+         {"Use the numbers that the header lists."},
+         HB_CULPRIT_OPTION});
   }
   if (const int32_t status = hb_mesh_check_size(vertex_count, triangle_count)) return status;
   if (const int32_t status = handlebody::check_arrays({{positions, "positions", vertex_count, 3},
@@ -45,6 +57,7 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
   options.method = static_cast<handlebody::DistanceMethod>(given->method);
   options.max_spheres = handlebody::signed_count(given->max_spheres);
   options.packing = static_cast<handlebody::SpherePacking>(given->packing);
+  options.quality = static_cast<handlebody::BakeQuality>(given->quality);
   options.cloud = given->cloud != 0;
   if (given->density != nullptr) options.density.assign(given->density, given->density + vertex_count);
   if (given->used != nullptr) options.used.assign(given->used, given->used + vertex_count);
@@ -75,9 +88,7 @@ int32_t hb_bake_step(hb_bake* bake, double* progress) {
 
 int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   handlebody::changing(bake);
-  if (!bake->bake->finished()) {
-    return handlebody::fail({HB_ERROR_INTERNAL, {"The bake is not finished."}, {"Step it until its progress is 1."}});
-  }
+  if (!bake->bake->finished()) return unfinished();
   const handlebody::Body& body = bake->bake->body();
   bake->spheres.clear();
   for (const auto& sphere : body.spheres) {
@@ -92,6 +103,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   out->diagonal = body.normalization.diagonal;
   out->spacing = grid.spacing;
   out->distance_scale = body.distance_scale;
+  out->smooth_length = body.smooth_length;
   out->vertex_count = static_cast<uint32_t>(body.positions.rows());
   out->triangle_count = static_cast<uint32_t>(body.triangles.rows());
   out->voxel_count = static_cast<uint32_t>(body.domain.size());
@@ -103,6 +115,30 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   out->centers = body.centers.data();
   out->distances = body.distances.data();
   out->spheres = bake->spheres.data();
+  return HB_OK;
+}
+
+int32_t hb_bake_skeleton(hb_bake* bake, hb_skeleton* out) {
+  handlebody::changing(bake);
+  if (!bake->bake->finished()) return unfinished();
+  const handlebody::Body& body = bake->bake->body();
+  bake->nodes.clear(), bake->steps.clear(), bake->lengths.clear(), bake->parents.clear();
+  for (const auto& node : body.skeleton.nodes)
+    bake->nodes.insert(bake->nodes.end(), {node.place.x(), node.place.y(), node.place.z(), node.radius});
+  for (const auto& branch : body.skeleton.branches) {
+    bake->steps.insert(bake->steps.end(), branch.nodes.begin(), branch.nodes.end());
+    bake->lengths.push_back(static_cast<uint32_t>(branch.nodes.size()));
+    bake->parents.push_back(branch.parent);
+  }
+  out->node_count = static_cast<uint32_t>(body.skeleton.nodes.size());
+  out->branch_count = static_cast<uint32_t>(bake->lengths.size());
+  out->step_count = static_cast<uint32_t>(bake->steps.size());
+  out->sphere_count = static_cast<uint32_t>(body.sphere_branches.size());
+  out->nodes = bake->nodes.data();
+  out->steps = bake->steps.data();
+  out->lengths = bake->lengths.data();
+  out->parents = bake->parents.data();
+  out->sphere_branches = body.sphere_branches.data();
   return HB_OK;
 }
 

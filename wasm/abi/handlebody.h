@@ -70,6 +70,7 @@ typedef struct hb_body {
   double origin[3];           /* center of voxel (0, 0, 0) */
   double spacing;             /* voxel edge */
   double distance_scale;      /* interior distance = distance_scale · code */
+  double smooth_length;       /* over which one smooth function may deform the body; 0 where it is not known */
   uint32_t dims[3];           /* voxels along x, y, z */
   uint32_t vertex_count;
   uint32_t triangle_count;
@@ -88,11 +89,13 @@ typedef struct hb_bake hb_bake;
 
 /* What to bake and how. Pointers may be NULL and are read during hb_bake_begin only. */
 typedef struct hb_bake_options {
-  uint32_t center_count;   /* 1 to 5000 (at most the number of distinct vertices is used), sampled farthest-first by interior distance */
-  uint32_t resolution;     /* voxels along the longest side of the box, 8 to 512 */
+  uint32_t center_count;   /* 1 to 5000 (at most the number of distinct vertices is used), sampled farthest-first by interior distance; 0
+                            * chooses it by the skeleton's branches, and serves every sphere with four */
+  uint32_t resolution;     /* voxels along the longest side of the box, 8 to 512; 0 chooses it by how much is inside and by `quality` */
   uint32_t method;         /* interior distances: 0 fast marching, 1 Euclidean, for comparison, 2 heat, 3 mean value */
-  uint32_t max_spheres;    /* 1 to 2000 */
-  uint32_t packing;        /* spheres along the skeleton (0), or from an octree (1) */
+  uint32_t max_spheres;    /* 1 to 2000; 0 chooses it by the skeleton's branches */
+  uint32_t packing;        /* spheres along a curve skeleton and beside it (0), from an octree (1), or greedily near the medial axis (2) */
+  uint32_t quality;        /* 0 draft, 1 normal, 2 fine: voxels to aim at, and how finely distances are rounded */
   uint32_t cloud;          /* 1: the positions are a dense sample of a surface or a solid, without triangles */
   uint32_t voxel_count;    /* not 0: so many `voxels` of the grid that follows, in model units, are the inside; the mesh is their surface */
   uint32_t dims[3];
@@ -126,6 +129,23 @@ HB_WHOLE_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 /* The finished body, owned by the bake. */
 HB_WHOLE_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
 
+/* The curve skeleton along which the spheres were placed (§4.2), owned by the bake: a graph, whose branches share the nodes where they
+ * meet. Without nodes where spheres were placed otherwise. */
+typedef struct hb_skeleton {
+  uint32_t node_count;
+  uint32_t branch_count;
+  uint32_t step_count;            /* nodes of all branches, one after another */
+  uint32_t sphere_count;          /* of sphere_branches: the body's spheres, or 0 */
+  const double* nodes;            /* node_count × 4: place, distance to the surface; solver space */
+  const uint32_t* steps;          /* step_count nodes, each branch's from the end that is nearer to the root */
+  const uint32_t* lengths;        /* branch_count numbers of steps */
+  const int32_t* parents;         /* branch_count: the branch that this one goes on from, before it in the list, or -1 */
+  const int32_t* sphere_branches; /* sphere_count: the branch of each sphere, or -1 */
+} hb_skeleton;
+
+/* Fails with INTERNAL where the bake is not finished. */
+HB_WHOLE_API int32_t hb_bake_skeleton(hb_bake* bake, hb_skeleton* skeleton);
+
 /* The number of warnings so far. Writes warning number `index`, if there is one. */
 HB_WHOLE_API uint32_t hb_bake_get_warning(hb_bake* bake, uint32_t index, hb_bake_warning* warning);
 
@@ -137,10 +157,11 @@ typedef struct hb_irbf hb_irbf;
 
 /* Options of hb_irbf_create. */
 typedef struct hb_irbf_options {
-  double relative_width; /* h, in mean center spacings */
+  double relative_width; /* h, in mean center spacings; 0 takes the body's smooth length, two spacings at least */
   double smoothness;     /* λ of eq. (10); 0 chooses it from the body */
   double anchor_weight;  /* μ */
   double edge_exponent;  /* α of eq. (8) */
+  double poisson_ratio;  /* 0 to 0.49: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   uint32_t kernel;       /* as in hb_rbf_options, but for 14 */
   uint32_t host_kernel;  /* of kernel 15 */
@@ -167,6 +188,7 @@ typedef struct hb_irbf_quality {
   double maximum_principle; /* the most by which a basis function inside leaves its range on the surface, over that range */
   double condition;         /* estimated 1-norm condition number of the equations; 0 without handles */
   double smoothness;        /* λ, given or chosen */
+  double relative_width;    /* h in mean center spacings, given or chosen; 0 for a kernel without a width */
   uint32_t flips;           /* tetrahedra turned inside out */
   uint32_t tetrahedra;
 } hb_irbf_quality;
@@ -294,6 +316,7 @@ typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
   double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers chooses it */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
+  double poisson_ratio;  /* 0 to 0.49: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   const double* widths;  /* one per center, or NULL */
   const double* centers; /* center_count × dimension, or NULL for the points themselves */

@@ -74,6 +74,7 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   body.centers.assign(from->centers, from->centers + from->center_count);
   body.distances.assign(from->distances, from->distances + std::size_t{from->center_count} * from->voxel_count);
   body.distance_scale = from->distance_scale;
+  body.smooth_length = from->smooth_length;
   for (uint32_t s = 0; s < from->sphere_count; ++s) {
     const double* sphere = from->spheres + 4 * s;
     body.spheres.push_back({handlebody::Vector3(sphere[0], sphere[1], sphere[2]), sphere[3]});
@@ -85,6 +86,7 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   options.smoothness = given->smoothness;
   options.anchor_weight = given->anchor_weight;
   options.edge_exponent = given->edge_exponent;
+  options.poisson_ratio = given->poisson_ratio;
   options.constraints = static_cast<handlebody::ConstraintKind>(given->constraints);
   options.precision = static_cast<handlebody::FramePrecision>(given->precision);
   options.sphere_fit = static_cast<handlebody::SphereFit>(given->sphere_fit);
@@ -160,6 +162,7 @@ int32_t hb_irbf_measure(hb_irbf* irbf, const uint32_t* tetrahedra, uint32_t coun
   out->maximum_principle = quality->maximum_principle;
   out->condition = irbf->irbf->condition();
   out->smoothness = irbf->irbf->smoothness();
+  out->relative_width = irbf->irbf->prepared()->basis.relative_width();
   out->flips = static_cast<uint32_t>(quality->flips);
   out->tetrahedra = static_cast<uint32_t>(quality->tetrahedra);
   return HB_OK;

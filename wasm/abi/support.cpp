@@ -41,7 +41,7 @@ int32_t handlebody::check_arrays(std::initializer_list<GivenArray> arrays) {
 extern "C" {
 
 uint32_t hb_abi_version(void) {
-  return 6;
+  return 7;
 }
 
 const hb_error* hb_last_error(void) {

@@ -2,25 +2,28 @@ import { callback, named, numbers, optional, type Readers, signal, whole } from 
 import type { BakeOptions, DistanceMethod } from './types.ts';
 
 export const BAKE_DEFAULTS = {
-  centers: 200,
+  centers: 'auto',
   distance: 'fast-marching',
-  resolution: 96,
-  spheres: 120,
+  resolution: 'auto',
+  quality: 'normal',
+  spheres: 'auto',
   packing: 'skeleton',
 } as const;
 
 /** By the solver's numbers. */
 export const METHODS: readonly DistanceMethod[] = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
-export const PACKINGS = ['skeleton', 'tree'] as const;
+export const PACKINGS = ['skeleton', 'tree', 'medial'] as const;
+export const QUALITIES = ['draft', 'normal', 'fine'] as const;
 
-const positiveWhole = whole(1, 0xffff_ffff);
+const chosen = named(['auto'], whole(1, 0xffff_ffff), 'a whole number from 1 on');
 
 /** @internal How a bake's options are read, here and by who hands them to a worker. */
 export const BAKE_READERS = {
-  centers: positiveWhole,
+  centers: chosen,
   distance: named(METHODS),
-  resolution: positiveWhole,
-  spheres: positiveWhole,
+  resolution: chosen,
+  quality: named(QUALITIES),
+  spheres: chosen,
   packing: named(PACKINGS),
   density: optional((value, name) => numbers(value, name, { kind: 'vertex' })),
   signal: optional(signal),

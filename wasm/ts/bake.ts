@@ -1,28 +1,29 @@
 import { type Exports, LAYOUT } from './abi.generated.ts';
 import { options, row } from './arguments.ts';
-import { BAKE_DEFAULTS, BAKE_READERS, METHODS, PACKINGS } from './bake-options.ts';
+import { BAKE_DEFAULTS, BAKE_READERS, METHODS, PACKINGS, QUALITIES } from './bake-options.ts';
 import { prepareShape } from './bake-shape.ts';
 import { tellWarnings } from './bake-warnings.ts';
 import { throwIfAborted } from './errors.ts';
 import { hashPositions } from './hash.ts';
 import type { Heap } from './heap.ts';
 import { runStepped } from './stepped.ts';
-import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh } from './types.ts';
+import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh, Skeleton } from './types.ts';
 
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
 export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOptions): Promise<BodyData> {
   // Read once: from the first pause on, shape and options may be others.
-  const { centers, distance, resolution, spheres, packing, density, signal, onProgress, onWarning } = options(
+  const { centers, distance, resolution, quality, spheres, packing, density, signal, onProgress, onWarning } = options(
     given,
     BAKE_READERS,
     BAKE_DEFAULTS,
   );
   throwIfAborted(signal);
   const numbers = {
-    center_count: centers,
-    resolution,
+    center_count: orZero(centers),
+    resolution: orZero(resolution),
+    quality: QUALITIES.indexOf(quality),
     method: METHODS.indexOf(distance),
-    max_spheres: spheres,
+    max_spheres: orZero(spheres),
     packing: PACKINGS.indexOf(packing),
   };
   const { mesh, cloud, volume, used } = prepareShape(heap, shape);
@@ -63,6 +64,8 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOpt
   }
 }
 
+const orZero = (number: number | 'auto') => (number === 'auto' ? 0 : number);
+
 function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: DistanceMethod): BodyData {
   const layout = LAYOUT.hb_body;
   return heap.scope((scratch) => {
@@ -72,8 +75,9 @@ function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: Dista
     const triple = (offset: number) => Array.from(heap.f64(body + offset, 3)) as [number, number, number];
     const word = (offset: number) => heap.u32(body + offset, 1)[0] ?? 0;
     const [voxels, centers, spheres] = [word(layout.voxel_count), word(layout.center_count), word(layout.sphere_count)];
+    const skeleton = readSkeleton(heap, bake);
     return {
-      version: 1,
+      version: 2,
       mesh,
       distance,
       positionsHash: hashPositions(mesh.positions),
@@ -88,6 +92,27 @@ function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: Dista
       distances: heap.u16(word(layout.distances), centers * voxels).slice(),
       distanceScale: double(layout.distance_scale),
       spheres: heap.f64(word(layout.spheres), spheres * 4).slice(),
+      smoothLength: double(layout.smooth_length),
+      ...(skeleton && { skeleton }),
+    };
+  });
+}
+
+function readSkeleton(heap: Heap<Exports>, bake: number): Skeleton | undefined {
+  const layout = LAYOUT.hb_skeleton;
+  return heap.scope((scratch) => {
+    const at = scratch.reserve(layout.sizeof);
+    heap.check((e) => e.hb_bake_skeleton(bake, at));
+    const word = (offset: number) => heap.u32(at + offset, 1)[0] ?? 0;
+    const [nodes, branches, spheres] = [word(layout.node_count), word(layout.branch_count), word(layout.sphere_count)];
+    if (nodes === 0) return undefined;
+    const signed = (offset: number, count: number) => new Int32Array(heap.u32(word(offset), count).slice().buffer);
+    return {
+      nodes: heap.f64(word(layout.nodes), 4 * nodes).slice(),
+      steps: heap.u32(word(layout.steps), word(layout.step_count)).slice(),
+      lengths: heap.u32(word(layout.lengths), branches).slice(),
+      parents: signed(layout.parents, branches),
+      sphereBranches: signed(layout.sphere_branches, spheres),
     };
   });
 }

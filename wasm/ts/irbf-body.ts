@@ -30,6 +30,7 @@ export function readBody(given: unknown): BodyData {
     centers: indices(body.centers, 'body.centers', { kind: 'center', code: 'body-invalid' }) as Uint32Array,
     distances: indices(body.distances, 'body.distances', BODY, 2 ** 16) as Uint16Array,
     distanceScale: bodyNumber(body.distanceScale, 'body.distanceScale'),
+    smoothLength: bodyNumber(body.smoothLength ?? 0, 'body.smoothLength'),
     spheres: numbers(body.spheres, 'body.spheres', BODY) as Float64Array,
   };
   checkBody(read);
@@ -74,6 +75,7 @@ export function writeBody(heap: Heap, scratch: Scratch, body: BodyData): number 
   heap.f64(at + layout.origin, 3).set(body.grid.origin);
   heap.f64(at + layout.spacing, 1)[0] = body.grid.spacing;
   heap.f64(at + layout.distance_scale, 1)[0] = body.distanceScale;
+  heap.f64(at + layout.smooth_length, 1)[0] = body.smoothLength ?? 0;
   heap.u32(at + layout.dims, 3).set(body.grid.dimensions);
   const words = {
     vertex_count: body.mesh.positions.length / 3,

@@ -1,5 +1,5 @@
 import { LAYOUT } from './abi.generated.ts';
-import { callback, finite, named, options, positive, type Read, type Reader, type Readers, whole } from './arguments.ts';
+import { callback, finite, named, number, options, positive, type Read, type Reader, type Readers, whole } from './arguments.ts';
 import type { Heap, Scratch } from './heap.ts';
 import { HOST_KERNEL, KERNEL_NUMBERS, KERNELS, type KernelFunction } from './kernels.ts';
 import { printWarning } from './rbf-report.ts';
@@ -8,11 +8,12 @@ import type { IrbfKernel, IrbfOptions } from './types.ts';
 /** λ is eq. (10)'s: the paper's 0.001, which its appendix stacks unsquared, would be 1e-6 here. */
 export const IRBF_DEFAULTS = {
   kernel: 'inverse-multiquadric',
-  relativeWidth: 2,
+  relativeWidth: 'auto',
   smoothness: 'auto',
   constraints: 'soft',
   anchorWeight: 100,
-  edgeExponent: -1,
+  edgeExponent: 1,
+  poissonRatio: 0.45,
   support: 4,
   order: 2,
   precision: 'fixed',
@@ -23,11 +24,12 @@ const RADIAL = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate') a
 
 const READERS = {
   kernel: named(RADIAL, callback as Reader<KernelFunction>, 'a function of s'),
-  relativeWidth: positive,
+  relativeWidth: named(['auto'], positive, 'a positive number'),
   smoothness: named(['auto'], positive, 'a positive number'),
   constraints: named(['soft', 'hard']),
   anchorWeight: positive,
   edgeExponent: finite,
+  poissonRatio: number('a number from 0 to 0.49', (x) => x >= 0 && x <= 0.49),
   support: positive,
   order: whole(2, 8),
   precision: named(['fixed', 'float']),
@@ -47,10 +49,11 @@ export function writeOptions(heap: Heap, scratch: Scratch, how: ResolvedIrbf, ho
   const layout = LAYOUT.hb_irbf_options;
   const at = scratch.reserve(layout.sizeof);
   const doubles = heap.f64(at, layout.kernel / 8);
-  doubles[layout.relative_width / 8] = how.relativeWidth;
+  doubles[layout.relative_width / 8] = how.relativeWidth === 'auto' ? 0 : how.relativeWidth;
   doubles[layout.smoothness / 8] = how.smoothness === 'auto' ? 0 : how.smoothness;
   doubles[layout.anchor_weight / 8] = how.anchorWeight;
   doubles[layout.edge_exponent / 8] = how.edgeExponent;
+  doubles[layout.poisson_ratio / 8] = how.poissonRatio;
   doubles[layout.support / 8] = how.support;
   const words = heap.u32(at, layout.sizeof / 4);
   words[layout.kernel / 4] = typeof how.kernel === 'string' ? KERNEL_NUMBERS[how.kernel] : HOST_KERNEL;

@@ -207,6 +207,10 @@ export class Irbf {
       return {
         ...this.#solved,
         smoothness: number(layout.smoothness),
+        relativeWidth: number(layout.relative_width),
+        centers: this.#body.centers.length,
+        spheres: this.#shapes.length / 9,
+        voxels: this.#body.voxels.length,
         condition: number(layout.condition),
         maximumPrinciple: number(layout.maximum_principle),
         volumeRatio: number(layout.volume_ratio),

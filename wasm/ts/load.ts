@@ -4,7 +4,7 @@ import { HandlebodyError, throwIfAborted } from './errors.ts';
 import { Heap } from './heap.ts';
 import { HostKernels } from './host-kernels.ts';
 
-const ABI_VERSION = 6;
+const ABI_VERSION = 7;
 
 export interface LoadOptions {
   /** The wasm to use instead of the one inside: compiled, as bytes, or where to fetch it. */

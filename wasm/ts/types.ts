@@ -75,7 +75,8 @@ export type BakeShape = Mesh | TetrahedralMesh | PointCloud | VoxelVolume;
  * solver space: (position − normalization.center) / normalization.diagonal.
  */
 export interface BodyData {
-  readonly version: 1;
+  /** 1: read from a file of the first format, which knew neither `smoothLength` nor `skeleton`. */
+  readonly version: 1 | 2;
   /** A copy of the mesh that was baked; of tetrahedra and voxels the surface with all vertices, of a point cloud the points and no triangles. */
   readonly mesh: Mesh;
   /** How the distances were measured. */
@@ -98,8 +99,32 @@ export interface BodyData {
   readonly distanceScale: number;
   /** spheres × 4: center xyz, radius. */
   readonly spheres: Float64Array;
+  /**
+   * Over which length one smooth function may deform the body, which `relativeWidth: 'auto'` makes its kernels as wide as: half of a limb
+   * where limbs meet, all of a body where none do. 0 or left out where it is not known.
+   */
+  readonly smoothLength?: number;
+  /** Where the spheres were placed along one. */
+  readonly skeleton?: Skeleton;
   /** Where the model wants to be held, by name; `bake` names none. */
   readonly handles?: readonly NamedHandle[];
+}
+
+/**
+ * A curve skeleton (§4.2): a graph of branches through the middle of a body, one into every limb, which share the nodes where they meet.
+ * The deformation does not need it. Lengths are in solver space.
+ */
+export interface Skeleton {
+  /** nodes × 4: place xyz, distance to the surface. */
+  readonly nodes: Float64Array;
+  /** Node numbers of all branches, one branch after another, each from the end that is nearer to the root. */
+  readonly steps: Uint32Array;
+  /** How many steps each branch has. */
+  readonly lengths: Uint32Array;
+  /** The branch that each goes on from, which comes before it, or −1. */
+  readonly parents: Int32Array;
+  /** The branch of each of the body's spheres, or −1 beside the skeleton. */
+  readonly sphereBranches: Int32Array;
 }
 
 /** A handle and what it is called. */
@@ -116,15 +141,29 @@ export type NamedHandle = Handle & { readonly name: string };
 export type DistanceMethod = 'fast-marching' | 'heat' | 'mean-value' | 'euclidean';
 
 export interface BakeOptions {
-  /** How many IRBF centers to sample, farthest first. */
-  readonly centers?: number;
+  /**
+   * How many IRBF centers to sample, farthest first. 'auto', the default: 80 and five for each branch of the skeleton, then as many more as
+   * give every sphere four within three of its radii, measured inside (§4.3), 300 at most.
+   */
+  readonly centers?: number | 'auto';
   readonly distance?: DistanceMethod;
-  /** Voxels along the longest side of the bounding box. A voxel volume brings its own. */
-  readonly resolution?: number;
-  /** Most spheres to fill the volume with. */
-  readonly spheres?: number;
-  /** Spheres along the skeleton, or from an octree: spread over the volume, more alike. */
-  readonly packing?: 'skeleton' | 'tree';
+  /**
+   * Voxels along the longest side of the bounding box. 'auto', the default, is as fine as the quality's number of voxels inside allows, so
+   * that thin models get finer voxels than fat ones, and finer where that keeps limbs apart. A voxel volume brings its own.
+   */
+  readonly resolution?: number | 'auto';
+  /**
+   * How many bytes the interior distances may take: 5,000 voxels inside and distances in 4,096 steps for a 'draft', 16,000 and 8,192 for
+   * 'normal', 64,000 and 65,536 for 'fine'.
+   */
+  readonly quality?: 'draft' | 'normal' | 'fine';
+  /** Most spheres to fill the volume with. 'auto', the default: 40 and six for each branch of the skeleton, 200 at most. */
+  readonly spheres?: number | 'auto';
+  /**
+   * Spheres along a curve skeleton, at least three along each branch that is thicker than two voxels, and beside it where there is room;
+   * from an octree, spread over the volume, more alike; or near the medial axis, larger first, wherever that is.
+   */
+  readonly packing?: 'skeleton' | 'tree' | 'medial';
   /** For each vertex the density of centers around it, relative to 1: higher where detail will be moved. */
   readonly density?: ArrayLike<number>;
   readonly signal?: AbortSignal;
@@ -155,19 +194,30 @@ export interface IrbfOptions {
    * kernels that change sign may be refused.
    */
   readonly kernel?: IrbfKernel | KernelFunction;
-  /** The kernel's width h, in mean spacings of the centers. Smaller is more local. */
-  readonly relativeWidth?: number;
   /**
-   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto' chooses it from the body: coefficients as large
-   * as the model cost a fixed part of what collapsing every sphere would, whatever the number of spheres and centers and the model's size.
+   * The kernel's width h, in mean spacings of the centers. Smaller is more local. 'auto', the default, is the body's `smoothLength`, and two
+   * spacings at least: kernels about one limb hardly reach the next, and a body without limbs bends as one.
+   */
+  readonly relativeWidth?: number | 'auto';
+  /**
+   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto', the default, is 7e-9 C² Σ w‖Δφ‖² over the
+   * C centers and all spheres' edges, so that a function costs the same part of the spheres' energy however many centers make it up.
    */
   readonly smoothness?: number | 'auto';
   /** 'soft' weighs the handles' misses by μ (appendix); 'hard' meets every target exactly (§4.6). */
   readonly constraints?: 'soft' | 'hard';
   /** μ: the weight of an anchor relative to a sphere's edge. */
   readonly anchorWeight?: number;
-  /** α of eq. (8), the exponent of the edge length in a sphere's weight: −1 lets small spheres count as much as large ones. */
+  /**
+   * α of eq. (8), the exponent of the edge length in a sphere's weight. 1, the default, weighs a sphere by its volume, so that the energy is
+   * that of the body; the paper's −1 lets small spheres resist as much as large ones.
+   */
   readonly edgeExponent?: number;
+  /**
+   * How much rigid spheres resist a change of volume, as the Poisson ratio of an elastic body: 0, the paper's eq. (8), to 0.49. The energy is
+   * that of fixed corotated elasticity (Stomakhin et al. 2012): Σ w (‖F − R‖² + ν/(1 − 2ν) (det F − 1)²).
+   */
+  readonly poissonRatio?: number;
   /** Of 'compact-inverse-multiquadric': where it ends, in widths. */
   readonly support?: number;
   /** Of 'polyharmonic': the order of the Laplacian that it solves, 2 or more. */
@@ -212,6 +262,12 @@ export interface SolveReport {
 export interface IrbfReport extends SolveReport {
   /** λ, as given or as chosen. */
   readonly smoothness: number;
+  /** The kernel's width in mean spacings of the centers, as given or as chosen; 0 for a kernel without a width. */
+  readonly relativeWidth: number;
+  /** Of the body, as given or as chosen when it was baked. */
+  readonly centers: number;
+  readonly spheres: number;
+  readonly voxels: number;
   /** Estimated 1-norm condition number of the equations. With interior distances no theorem bounds it. */
   readonly condition: number;
   /**

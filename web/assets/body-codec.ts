@@ -5,6 +5,7 @@
 import { HandlebodyError } from '../../wasm/ts/errors.ts';
 import { hashWords } from '../../wasm/ts/hash.ts';
 import type { BodyData, Mesh } from '../../wasm/ts/types.ts';
+import { readSkeleton, type StoredSkeleton, storeSkeleton } from './body-skeleton.ts';
 import { Fault, inWords } from './fault.ts';
 import { loadDecoder, loadEncoder } from './meshopt.ts';
 import { addPredictions, fromLanes, predictionMisses, toLanes } from './predict-distances.ts';
@@ -22,7 +23,12 @@ export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays
   transpose(codes, body.distances, order, 'to-voxels');
   const misses = predictionMisses(codes, { voxels, dimensions: grid.dimensions, centers: centers.length });
   const lanes = toLanes(misses);
-  const copies = { voxels: toRuns(voxels), centers: Uint32Array.from(centers), spheres: Float32Array.from(body.spheres) };
+  const copies = {
+    voxels: toRuns(voxels),
+    centers: Uint32Array.from(centers),
+    spheres: Float32Array.from(body.spheres),
+    ...(body.skeleton && body.version > 1 && storeSkeleton(body.skeleton)),
+  };
   // From here on the body's arrays may change.
   const encoder = await loadEncoder();
   const bytes = new Uint8Array(lanes.buffer);
@@ -63,7 +69,15 @@ async function decode({ header: { arraysHash, reading: _, ...header }, arrays, m
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
   const { dimensions } = header.grid;
-  const body = { ...header, mesh: await mesh(), voxels, centers, spheres: Float64Array.from(stored.spheres) };
+  const { skeletonNodes } = stored;
+  const body = {
+    ...header,
+    mesh: await mesh(),
+    voxels,
+    centers,
+    spheres: Float64Array.from(stored.spheres),
+    ...(skeletonNodes && header.version > 1 && { skeleton: readSkeleton(stored as StoredSkeleton) }),
+  };
   checkBody(body);
 
   const decoder = await loadDecoder();
@@ -84,9 +98,11 @@ async function decode({ header: { arraysHash, reading: _, ...header }, arrays, m
 }
 
 /** Of all that is stored, so that damage is found, and wrong numbers of codes, which the codec does not always tell. */
-function hashArrays({ voxels, centers, order, spheres }: StoredArrays, lanes: Uint16Array): string {
+function hashArrays({ voxels, centers, order, spheres, ...skeleton }: StoredArrays, lanes: Uint16Array): string {
   const words = (array: Float32Array | Uint16Array) => new Uint32Array(array.buffer, array.byteOffset, array.byteLength / 4);
-  return hashWords([voxels, centers, order, words(lanes), words(spheres)]);
+  const { skeletonNodes, skeletonBranches, sphereBranches } = skeleton;
+  const more = skeletonNodes && skeletonBranches && sphereBranches ? [words(skeletonNodes), skeletonBranches, sphereBranches] : [];
+  return hashWords([voxels, centers, order, words(lanes), words(spheres), ...more]);
 }
 
 /** The centers one after another, each the nearest to the one before that has not been: their fields then differ little. */

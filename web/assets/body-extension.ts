@@ -19,6 +19,9 @@ export interface IBodyProperty {
   order: Accessor;
   distances: Accessor;
   spheres: Accessor;
+  skeletonNodes: Accessor;
+  skeletonBranches: Accessor;
+  sphereBranches: Accessor;
 }
 
 export type BodyAccessorName = keyof typeof BODY_ACCESSORS;

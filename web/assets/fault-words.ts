@@ -175,6 +175,18 @@ export const FAULTS = {
   distances: body('distances', (there, centers, voxels) => `has ${there} distances for ${centers} centers × ${voxels} voxels`),
   voxel: body('voxels', (voxel) => `has voxel ${voxel} out of order or outside its grid`),
   center: body('centers', (vertex, vertices) => `has a center on vertex ${vertex} of ${vertices}`),
+  'smooth-length': body('smoothLength', () => 'has a smooth length that is no number from 0 on'),
+  'skeleton-nodes': body('skeletonNodes', () => 'has a skeleton whose nodes are not four finite numbers each'),
+  'skeleton-step': body('skeletonBranches', (node, nodes) => `has a skeleton that passes node ${node} of ${nodes}`),
+  'skeleton-branch': body(
+    'skeletonBranches',
+    (b) => `has a skeleton whose branch ${b} is empty, cut off or grows from none before it`,
+  ),
+  'skeleton-spheres': body(
+    'sphereBranches',
+    (there, spheres) => `says of ${there} spheres on which branch they lie, and has ${spheres}`,
+  ),
+  'skeleton-sphere': body('sphereBranches', (s, branch, branches) => `has sphere ${s} on branch ${branch} of ${branches}`),
   spheres: body('spheres', () => 'has spheres that are not four finite numbers each'),
   empty: body('centers', () => 'is empty'),
   most: body(

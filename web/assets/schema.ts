@@ -1,14 +1,15 @@
 /**
- * HANDLEBODY_body as it stands in a file, format version 1, and the checks that turn what a file says into data to be trusted. Needs
+ * HANDLEBODY_body as it stands in a file, format version 2, and the checks that turn what a file says into data to be trusted. Needs
  * neither glTF-Transform nor three.js: both readers use it.
  *
  *   "extensions": { "HANDLEBODY_body": {
- *     "version": 1,
+ *     "version": 2,
  *     "distance": "fast-marching",
  *     "positionsHash": "0123456789abcdef",
  *     "normalization": { "center": [x, y, z], "diagonal": d },
  *     "grid": { "origin": [x, y, z], "spacing": h, "dimensions": [nx, ny, nz] },
  *     "distanceScale": s,
+ *     "smoothLength": l,
  *     "handles": [ { "name": "Nose", "vertex": 120 }, { "name": "Chest", "at": [x, y, z] }, … ],    optional: where it wants to be held
  *     "reading": { "skipped": [part, …], "morphs": { part: [weight, …] }, "skins": { part: [16 numbers] }, "origin": [x, y, z] },    optional: see `MeshReading`
  *     "arraysHash": "0123456789abcdef",      of the arrays below in this order, distances decompressed
@@ -16,17 +17,20 @@
  *     "centers": accessor,     unsigned int SCALAR: vertices
  *     "order": accessor,       unsigned int SCALAR: the center that the k-th stored row of distances is of
  *     "distances": accessor,   unsigned byte SCALAR: compressed, see `predict-distances.ts`
- *     "spheres": accessor      float VEC4: center xyz, radius
+ *     "spheres": accessor,     float VEC4: center xyz, radius
+ *     "skeletonNodes": accessor, "skeletonBranches": accessor, "sphereBranches": accessor    optional: see `body-skeleton.ts`
  *   } }
  *
  * Solver space is scene space after node transforms, scaled to a unit diagonal; vertices are numbered through the triangle primitives of
- * the default scene in order, or through its points when it has no triangles. The extension is optional: viewers that do not know it
+ * the default scene in order, or through its points when it has no triangles. Version 1 had neither smooth length nor skeleton, and is
+ * still read, and written again as it was. The extension is optional: viewers that do not know it
  * show the model as it is.
  *
  * Functions here throw a `Fault`, by the name of the code that it has in words.
  */
 import { hashPositions } from '../../wasm/ts/hash.ts';
 import type { BodyData, DistanceMethod, Mesh, MeshReading, NamedHandle } from '../../wasm/ts/types.ts';
+import { checkSkeleton } from './body-skeleton.ts';
 import { Fault } from './fault.ts';
 import { asObject, isNumber } from './gltf-json.ts';
 import { countInRuns } from './voxel-runs.ts';
@@ -36,15 +40,15 @@ export const HANDLEBODY_BODY = 'HANDLEBODY_body';
 /** Mesh extension: places of morph-target weights in a pose space. */
 export const HANDLEBODY_POSE_SPACE = 'HANDLEBODY_pose_space';
 
-/** The format that is written and read. */
-export const BODY_VERSION = 1;
+/** The format that is written; all up to it are read. */
+export const BODY_VERSION = 2;
 
 const METHODS = ['fast-marching', 'euclidean', 'heat', 'mean-value'];
 
 /** What a body says besides its arrays. Lengths of `grid` and `distanceScale` are in solver space, see `BodyData`. */
 type BodyHeader = Pick<
   BodyData,
-  'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale' | 'handles'
+  'version' | 'distance' | 'positionsHash' | 'normalization' | 'grid' | 'distanceScale' | 'smoothLength' | 'handles'
 > &
   Pick<Mesh, 'reading'>;
 
@@ -60,6 +64,9 @@ export interface StoredArrays {
   readonly order: Uint32Array;
   readonly distances: Uint8Array;
   readonly spheres: Float32Array;
+  readonly skeletonNodes?: Float32Array;
+  readonly skeletonBranches?: Uint32Array;
+  readonly sphereBranches?: Uint32Array;
 }
 
 /** Accessor names in the extension's JSON, their types and component types. */
@@ -69,6 +76,9 @@ export const BODY_ACCESSORS = {
   order: { type: 'SCALAR', array: Uint32Array },
   distances: { type: 'SCALAR', array: Uint8Array },
   spheres: { type: 'VEC4', array: Float32Array },
+  skeletonNodes: { type: 'VEC4', array: Float32Array, optional: true },
+  skeletonBranches: { type: 'SCALAR', array: Uint32Array, optional: true },
+  sphereBranches: { type: 'SCALAR', array: Uint32Array, optional: true },
 } as const;
 
 /** Bodies of more voxels or codes (an eighth and a quarter of a gigabyte) are neither written nor read. */
@@ -84,13 +94,12 @@ const CODES_PER_BYTE = 512;
  */
 export function parseBodyHeader(json: unknown): BodyHeader {
   const body = asObject(json) ?? {};
-  if (body.version !== BODY_VERSION) {
-    throw new Fault('body-version', [body.version, BODY_VERSION]);
-  }
+  const { version } = body;
+  if (version !== 1 && version !== BODY_VERSION) throw new Fault('body-version', [version, BODY_VERSION]);
   const normalization = asObject(body.normalization) ?? {};
   const grid = asObject(body.grid) ?? {};
   const header = {
-    version: BODY_VERSION as typeof BODY_VERSION,
+    version: version as 1 | typeof BODY_VERSION,
     distance: body.distance as DistanceMethod,
     positionsHash: body.positionsHash as string,
     normalization: {
@@ -103,6 +112,7 @@ export function parseBodyHeader(json: unknown): BodyHeader {
       dimensions: triple(grid.dimensions, 'grid.dimensions'),
     },
     distanceScale: body.distanceScale as number,
+    ...(version !== 1 && { smoothLength: (body.smoothLength ?? 0) as number }),
     ...(body.handles !== undefined && { handles: namedHandles(body.handles) }),
     // Who reads the scene again looks into it.
     ...(body.reading !== undefined && { reading: body.reading as MeshReading }),
@@ -110,6 +120,8 @@ export function parseBodyHeader(json: unknown): BodyHeader {
   if (!METHODS.includes(header.distance)) throw new Fault('method', [body.distance]);
   if (typeof header.positionsHash !== 'string' || header.positionsHash === '') throw new Fault('hash');
   if (!isNumber(header.distanceScale) || header.distanceScale < 0) throw new Fault('scale');
+  if (header.smoothLength !== undefined && !(isNumber(header.smoothLength) && header.smoothLength >= 0))
+    throw new Fault('smooth-length');
   const cells = header.grid.dimensions.reduce((product, n) => product * (Number.isInteger(n) && n > 0 ? n : 0), 1);
   if (cells < 1 || cells > 0xffff_ffff) throw new Fault('grid', [header.grid.dimensions]);
   return header;
@@ -117,9 +129,9 @@ export function parseBodyHeader(json: unknown): BodyHeader {
 
 /** What a body says besides its arrays, checked: what both writers put into a file. Throws as `parseBodyHeader` does. */
 export function headerOf(body: BodyData): BodyHeader {
-  const { version, distance, positionsHash, normalization, grid, distanceScale, handles } = body;
+  const { version, distance, positionsHash, normalization, grid, distanceScale, smoothLength, handles } = body;
   const { reading } = body.mesh;
-  return parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, handles, reading });
+  return parseBodyHeader({ version, distance, positionsHash, normalization, grid, distanceScale, smoothLength, handles, reading });
 }
 
 /** More than these cannot be told apart. */
@@ -150,8 +162,10 @@ export function parseStoredHeader(json: unknown): StoredHeader {
  * Throws 'body-invalid'.
  */
 export function checkStored(arrays: { readonly [name in keyof StoredArrays]?: unknown }, { grid }: BodyHeader): StoredArrays {
-  for (const [name, { array }] of Object.entries(BODY_ACCESSORS)) {
-    if (arrays[name as keyof StoredArrays] instanceof array) continue;
+  const skeleton = arrays.skeletonNodes !== undefined;
+  for (const [name, { array, ...rest }] of Object.entries(BODY_ACCESSORS)) {
+    const given = arrays[name as keyof StoredArrays];
+    if (given instanceof array || (given === undefined && 'optional' in rest && !skeleton)) continue;
     throw new Fault('array', [name]);
   }
   const stored = arrays as StoredArrays;
@@ -203,6 +217,7 @@ export function checkBody(body: Omit<BodyData, 'distances'> & { readonly distanc
   if (spheres.length % 4 !== 0 || spheres.some((x, i) => !Number.isFinite(x) || (i % 4 === 3 && x < 0))) {
     throw new Fault('spheres');
   }
+  if (body.skeleton) checkSkeleton(body.skeleton, spheres.length / 4);
 }
 
 function gridSize({ dimensions: [nx, ny, nz] }: BodyData['grid']): number {

@@ -40,6 +40,7 @@ export async function attachBody(document: Document, body: BodyData): Promise<Bo
     .createBody()
     .setHeader({ ...header, arraysHash });
   for (const [name, { type }] of Object.entries(BODY_ACCESSORS)) {
+    if (!arrays[name as BodyAccessorName]) continue;
     const accessor = document.createAccessor(`${HANDLEBODY_BODY}.${name}`, buffer).setType(type);
     // None of them is shared between threads: the encoder made them, or the bake.
     const array = arrays[name as BodyAccessorName] as TypedArray;

@@ -1,6 +1,6 @@
 import { load } from '../../wasm/ts/index.ts';
 import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
-import { attachBody, readMesh } from '../assets/index.ts';
+import { attachBody, type BodyProperty, HANDLEBODY_BODY, readMesh } from '../assets/index.ts';
 import { count, type Options, oneOf, READS, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
@@ -9,7 +9,8 @@ import type { Run } from './run.ts';
 
 const METHODS = ['fast-marching', 'heat', 'mean-value', 'euclidean'] as const satisfies readonly DistanceMethod[];
 const MORPHS = ['rest', 'present'] as const;
-const PACKINGS = ['skeleton', 'tree'] as const;
+const PACKINGS = ['skeleton', 'tree', 'medial'] as const;
+const QUALITIES = ['draft', 'normal', 'fine'] as const;
 
 export const BAKE_OPTIONS: Options = {
   ...READS,
@@ -18,8 +19,9 @@ export const BAKE_OPTIONS: Options = {
   distance: { type: 'string' },
   morphs: { type: 'string' },
   resolution: { type: 'string' },
+  quality: { type: 'string' },
   spheres: { type: 'string' },
-  'max-spheres': { type: 'string' },
+  packing: { type: 'string' },
 };
 
 /** `handlebody bake`: a model with its interior distances in it. */
@@ -49,7 +51,9 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
   clock.lap('write');
 
   const [vertices, triangles] = [mesh.positions.length / 3, mesh.triangles.length / 3];
-  const summary = { ...describeBody(body), ...(options.packing && { packing: options.packing }) };
+  const summary = describeBody(body);
+  const distances = document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY)?.getAccessor('distances')?.getByteLength() ?? 0;
+  const megabytes = (count: number) => `${(count / 1e6).toFixed(2)} MB`;
   report.result(
     {
       command: 'bake',
@@ -60,11 +64,14 @@ export async function bakeCommand({ values, words, report, signal, clock }: Run)
       vertices,
       triangles,
       ...summary,
+      ...(options.packing && { packing: options.packing }),
+      distances: { stored: distances },
       timings: clock.laps(),
     },
     [
       `${output.name}: ${vertices} vertices, ${triangles} triangles, ${summary.centers} centers, ${summary.spheres} spheres, ` +
-        `${summary.voxels} voxels (${summary.distance}), ${(bytes.length / 1e6).toFixed(2)} MB, ${(clock.total() / 1000).toFixed(1)} s`,
+        `${summary.voxels} voxels (${summary.distance}), ${megabytes(bytes.length)} (${megabytes(distances)} of them distances, ` +
+        `${((8 * distances) / (summary.centers * summary.voxels)).toFixed(1)} bits for each center and voxel), ${(clock.total() / 1000).toFixed(1)} s`,
     ],
   );
 }
@@ -74,8 +81,9 @@ function bakeOptions(values: Values) {
     centers: count(values, 'centers'),
     distance: oneOf(values, 'distance', METHODS),
     resolution: count(values, 'resolution'),
-    spheres: count(values, 'max-spheres'),
-    packing: oneOf(values, 'spheres', PACKINGS),
+    quality: oneOf(values, 'quality', QUALITIES),
+    spheres: count(values, 'spheres'),
+    packing: oneOf(values, 'packing', PACKINGS),
   };
   return Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined)) as {
     [K in keyof typeof entries]?: NonNullable<(typeof entries)[K]>;
@@ -83,7 +91,7 @@ function bakeOptions(values: Values) {
 }
 
 /** What a body is made of, in numbers. Lengths in the model's units. */
-export function describeBody({ centers, spheres, voxels, grid, normalization, distance, version }: BodyData) {
+export function describeBody({ centers, spheres, voxels, grid, normalization, distance, version, skeleton }: BodyData) {
   return {
     version,
     centers: centers.length,
@@ -91,5 +99,6 @@ export function describeBody({ centers, spheres, voxels, grid, normalization, di
     voxels: voxels.length,
     grid: { dimensions: grid.dimensions, spacing: grid.spacing * normalization.diagonal },
     distance,
+    ...(skeleton && { branches: skeleton.lengths.length }),
   };
 }

@@ -2,7 +2,8 @@
  * HANDLES.json, in the model's own units:
  *
  *   { "handles": [{ "vertex": 120 } or { "at": [x,y,z] }, with "to": [x,y,z], "rotation"?: [x,y,z,w], "scale"?: [x,y,z] }],
- *     "relativeWidth"?: number, "smoothness"?: number or "auto", "sphereFit"?: "rigid" or "similarity",
+ *     "relativeWidth"?: number or "auto", "smoothness"?: number or "auto", "poissonRatio"?: number,
+ *     "sphereFit"?: "rigid" or "similarity",
  *     "shapes"?: { a sphere's number: [9 numbers, the rows of a linear map that it is to be stretched by] } }
  *
  * Every word of it is checked: one that is misspelt would otherwise be silently without effect.
@@ -17,15 +18,16 @@ interface HandlesFile {
   /** 10 numbers a handle, as `Irbf.targets` takes them. */
   readonly targets: Float64Array;
   readonly options: {
-    readonly relativeWidth?: number;
+    readonly relativeWidth?: number | 'auto';
     readonly smoothness?: number | 'auto';
+    readonly poissonRatio?: number;
     readonly sphereFit?: 'rigid' | 'similarity';
   };
   /** Sphere and nine numbers, as `Irbf.shapes` takes them. */
   readonly shapes: readonly (readonly [number, readonly number[]])[];
 }
 
-const TOP = ['handles', 'relativeWidth', 'smoothness', 'sphereFit', 'shapes'];
+const TOP = ['handles', 'relativeWidth', 'smoothness', 'poissonRatio', 'sphereFit', 'shapes'];
 const KEYS = ['vertex', 'at', 'to', 'rotation', 'scale'];
 
 /** Throws 'file-invalid' for what is no JSON, 'handles-invalid', 'handle-*' or 'target-not-finite' naming the handle. */
@@ -45,16 +47,18 @@ export function parseHandles(
     targets.set(target, index * 10);
     return handle;
   });
-  const { relativeWidth, smoothness, sphereFit } = file;
-  if (relativeWidth !== undefined && !(isNumber(relativeWidth) && relativeWidth > 0))
-    throw invalid(`has the relativeWidth ${show(relativeWidth)}, which should be a number above 0.`);
-  if (smoothness !== undefined && smoothness !== 'auto' && !(isNumber(smoothness) && smoothness > 0))
-    throw invalid(`has the smoothness ${show(smoothness)}, which should be a number above 0, or "auto".`);
+  const { relativeWidth, smoothness, poissonRatio, sphereFit } = file;
+  for (const [name, value] of Object.entries({ relativeWidth, smoothness }))
+    if (value !== undefined && value !== 'auto' && !(isNumber(value) && value > 0))
+      throw invalid(`has the ${name} ${show(value)}, which should be a number above 0, or "auto".`);
+  if (poissonRatio !== undefined && !(isNumber(poissonRatio) && poissonRatio >= 0 && poissonRatio <= 0.49))
+    throw invalid(`has the poissonRatio ${show(poissonRatio)}, which should be a number from 0 to 0.49.`);
   if (sphereFit !== undefined && sphereFit !== 'rigid' && sphereFit !== 'similarity')
     throw invalid(`has the sphereFit ${show(sphereFit)}, which should be "rigid" or "similarity".`);
   const options = {
     ...(relativeWidth !== undefined && { relativeWidth }),
     ...(smoothness !== undefined && { smoothness }),
+    ...(poissonRatio !== undefined && { poissonRatio }),
     ...(sphereFit && { sphereFit }),
   };
   const shapes = parseShapes(file.shapes, sphereCount);

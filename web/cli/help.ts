@@ -26,7 +26,7 @@ const COMMON = `  --json               print one JSON object on standard output
 export const HELP: Record<string, string> = {
   '': `Deforms shapes by scattered interpolation.
 
-  handlebody bake MODEL.(glb|gltf|obj|ply|stl|off) -o BODY.glb [--centers N] [--distance METHOD] [--resolution N] [--spheres PACKING] [--json]
+  handlebody bake MODEL.(glb|gltf|obj|ply|stl|off) -o BODY.glb [--quality QUALITY] [--distance METHOD] [--json]
   handlebody deform BODY.glb --handles HANDLES.json -o OUT.glb [--json]
   handlebody pose FACE.glb --at valence=0.6,arousal=0.4 -o OUT.glb [--json]
   handlebody inspect FILE [--json]
@@ -41,12 +41,13 @@ ${EXIT_CODES}`,
 
   handlebody bake MODEL.(glb|gltf|obj|ply|stl|off) -o BODY.glb
 
-  --centers N          how many centers the deformation may bend at (200)
+  --quality QUALITY    draft, normal (the default) or fine: how many voxels and digits the distances get, and so how large the file is
+  --centers N          how many centers the deformation may bend at (by default as many as limbs and spheres need)
   --distance METHOD    fast-marching (the default), heat, mean-value or euclidean
   --morphs WHICH       rest (the default) or present: with what the file's morph weights add
-  --resolution N       voxels along the longest side, 8 to 512 (96)
-  --spheres PACKING    how spheres fill the volume: skeleton (the default) or tree
-  --max-spheres N      at most so many spheres (120)
+  --resolution N       voxels along the longest side, 8 to 512 (by default by the quality and by how much is inside)
+  --spheres N          at most so many spheres (by default by how many branches the skeleton has)
+  --packing PACKING    how spheres fill the volume: skeleton (the default), tree or medial
 ${READING}
 ${WRITING}
 ${COMMON}
@@ -70,7 +71,7 @@ HANDLES.json, in the model's own units after its nodes' transforms:
       { "vertex": 120, "to": [0.1, 0.6, 0] },
       { "at": [0, 0.5, 0], "to": [0, 0.5, 0], "rotation": [0, 0, 0.383, 0.924], "scale": [1, 1, 1] }
     ],
-    "relativeWidth": 2, "smoothness": "auto", "sphereFit": "rigid",
+    "relativeWidth": "auto", "smoothness": "auto", "poissonRatio": 0.45, "sphereFit": "rigid",
     "shapes": { "7": [1.5, 0, 0, 0, 1, 0, 0, 0, 1] } }
 
 A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ, PLY and OFF, in the order of the

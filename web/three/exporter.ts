@@ -129,9 +129,9 @@ async function writeBody(writer: Writer, body: BodyData): Promise<void> {
   const { scene } = await new GLTFLoader().parseAsync(shapes, '');
   checkPositions(meshFromObject(scene, { reading: body.mesh.reading ?? {} }).mesh.positions, body);
   const { arrays, arraysHash } = await encodeBody(body);
-  const accessors = Object.entries(BODY_ACCESSORS).map(([name, { type }]) => {
+  const accessors = Object.entries(BODY_ACCESSORS).flatMap(([name, { type }]) => {
     const array = arrays[name as keyof typeof arrays];
-    return [name, writeAccessor(writer, array, type)];
+    return array ? [[name, writeAccessor(writer, array, type)]] : [];
   });
   writer.json.extensions = {
     ...writer.json.extensions,

@@ -88,7 +88,8 @@ export class HandlebodyGLTFPlugin implements GLTFLoaderPlugin {
     const json = this.#parser.json.extensions?.[HANDLEBODY_BODY] as Record<string, unknown> | undefined;
     if (!json) return undefined;
     const header = parseStoredHeader(json);
-    const entries = Object.keys(BODY_ACCESSORS).map(async (name) => [name, await this.#readArray(json[name], name)] as const);
+    const names = Object.entries(BODY_ACCESSORS).filter(([name, rest]) => json[name] !== undefined || !('optional' in rest));
+    const entries = names.map(async ([name]) => [name, await this.#readArray(json[name], name)] as const);
     const arrays = Object.fromEntries(await Promise.all(entries)) as Partial<StoredArrays>;
     return decodeBody({ header, arrays, mesh: async () => (await readObject(scene, { reading: header.reading ?? {} })).mesh });
   }

@@ -1,10 +1,13 @@
 #include "core/irbf/bake.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/irbf/curve_skeleton.hpp"
+#include "core/irbf/skeleton_spheres.hpp"
 #include "core/irbf/sphere_tree.hpp"
 
 namespace handlebody {
@@ -18,6 +21,18 @@ constexpr double farthest_voxel = 100;
 /** Diagonals of the body that a voxel measures at least: 64 million in a row would not be as long as it is. */
 constexpr double smallest_voxel = 1e-8;
 
+/** Centers and spheres where they are chosen: some for any body, more for each branch of its skeleton (a torso, a leg, a tail). Ten
+ *  animals leak as little with 100 centers as with 200, and 100 spheres as with 200 (npm run bench -- leakage). */
+constexpr Index centers_of_any = 80, centers_of_branch = 5, most_automatic_centers = 300;
+constexpr int spheres_of_any = 40, spheres_of_branch = 6, most_automatic_spheres = 200;
+/** Paper 001, §4.3: centers that cover each sphere. */
+constexpr Index centers_of_sphere = 4;
+/** Codes of interior distances, by quality. Coarser ones make smaller files. Rounded to 8,191, a vertex of Spot or the dog moves by
+ *  4e-4 diagonals at most in any drag of the leakage table, to 16,383 by 1.3e-4 and to 4,095 by 5e-4. */
+constexpr std::array<double, bake_quality_count> most_codes{4095, 8191, 65535};
+/** Radius of the smallest spheres, in spacings: along the skeleton, and beside it. */
+constexpr double least_on_skeleton = 0.75, least_beside = 1.5;
+
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
           {"The bake's ", name, " is ", value, "."},
@@ -26,11 +41,11 @@ Error invalid_option(const char* name, Index value, Index low, Index high) {
 }
 
 Result<Done> check_options(const BakeOptions& options, Index vertices) {
-  if (options.centers < 1 || options.centers > 5000) return invalid_option("number of centers", options.centers, 1, 5000);
-  if (options.resolution < 8 || options.resolution > Bake::highest_resolution) {
+  if (options.centers < 0 || options.centers > 5000) return invalid_option("number of centers", options.centers, 1, 5000);
+  if (options.resolution != 0 && (options.resolution < 8 || options.resolution > Bake::highest_resolution)) {
     return invalid_option("resolution", options.resolution, 8, Bake::highest_resolution);
   }
-  if (options.max_spheres < 1 || options.max_spheres > 2000) {
+  if (options.max_spheres < 0 || options.max_spheres > 2000) {
     return invalid_option("number of spheres", options.max_spheres, 1, 2000);
   }
   if (!options.density.empty() && std::ssize(options.density) != vertices) {
@@ -111,17 +126,22 @@ Result<std::unique_ptr<Bake>> Bake::begin(const ConstPoints& positions, const Co
   }
 
   const auto& given = bake.options_.grid;
-  const Vector3 low = bake.solver_positions_.colwise().minCoeff(), high = bake.solver_positions_.colwise().maxCoeff();
-  auto grid = given ? solver_grid(*given, bake.options_.voxels, normalization) : make_grid(low, high, bake.options_.resolution);
-  if (!grid) return grid.error();
   InteriorOptions interior;
   interior.source = given ? InteriorSource::voxels : bake.options_.cloud ? InteriorSource::cloud : InteriorSource::surface;
-  interior.voxels = std::move(bake.options_.voxels);
   interior.allow_sheet = bake.options_.method == DistanceMethod::euclidean;
-  interior.resolution = bake.options_.resolution;
-  interior.centers = bake.options_.centers;
+  interior.centers = bake.options_.centers > 0 ? bake.options_.centers : centers_of_any;
   interior.flat = bake.mesh_.triangles.rows() - bake.mesh_.with_area;
-  bake.interior_ = std::make_unique<InteriorVoxels>(bake.solver_positions_, bake.mesh_.triangles, *grid, std::move(interior));
+  Points& places = bake.solver_positions_;
+  Triangles& turned = bake.mesh_.triangles;
+  if (given) {
+    auto grid = solver_grid(*given, bake.options_.voxels, normalization);
+    if (!grid) return grid.error();
+    interior.voxels = std::move(bake.options_.voxels);
+    bake.interior_ = std::make_unique<InteriorSearch>(places, turned, *grid, std::move(interior));
+  } else {
+    bake.interior_ =
+        std::make_unique<InteriorSearch>(places, turned, bake.options_.resolution, bake.options_.quality, std::move(interior));
+  }
   return made;
 }
 
@@ -138,7 +158,10 @@ Result<double> Bake::step() {
       measure_depth();
       break;
     case Phase::spheres:
-      if (auto done = pack(); !done) return done.error();
+      pack();
+      break;
+    case Phase::distance:
+      if (auto done = measure(); !done) return done.error();
       break;
     case Phase::prepare: {
       auto done = distance_->step();
@@ -163,8 +186,9 @@ void Bake::enter(Phase phase) {
 }
 
 void Bake::take_interior() {
-  body_.domain = std::move(interior_->domain());
-  for (BakeWarning warning : interior_->warnings()) {
+  resolution_ = interior_->resolution();
+  body_.domain = std::move(interior_->found().domain());
+  for (BakeWarning warning : interior_->found().warnings()) {
     if (warning.place) warning.place = body_.normalization.to_model(*warning.place);
     warnings_.push_back(warning);
   }
@@ -172,8 +196,8 @@ void Bake::take_interior() {
 }
 
 void Bake::measure_depth() {
-  const bool sheet = interior_->sheet();
-  const auto& on_bridge = interior_->on_bridge();
+  const bool sheet = interior_->found().sheet();
+  const auto& on_bridge = interior_->found().on_bridge();
   const auto& voxels = body_.domain.voxels();
   const std::size_t count = voxels.size();
   const std::size_t end = sheet ? count : std::min(count, depth_.size() + voxels_per_step);
@@ -182,21 +206,56 @@ void Bake::measure_depth() {
     const bool beside = v > 0 && !on_bridge[v - 1] && voxels[v] == voxels[v - 1] + 1;
     const double bound = beside ? 1.0001 * (depth_[v - 1] + body_.domain.grid().spacing) : std::numeric_limits<double>::infinity();
     const Vector3 center = body_.domain.center(static_cast<Index>(v));
-    depth_.push_back(sheet || on_bridge[v] ? 0 : interior_->tree().distance(center, bound));
+    depth_.push_back(sheet || on_bridge[v] ? 0 : interior_->found().tree().distance(center, bound));
   }
   if (end == count) enter(Phase::spheres);
 }
 
-Result<Done> Bake::pack() {
+void Bake::pack() {
+  const bool sheet = interior_->found().sheet();
+  const bool automatic = options_.max_spheres == 0 || options_.centers == 0;
+  Index branches = 0;
+  if (!sheet && (automatic || options_.packing == SpherePacking::skeleton)) {
+    body_.skeleton = curve_skeleton(body_.domain, depth_);
+    branches = std::ssize(body_.skeleton.branches);
+    body_.smooth_length = smooth_length(body_.skeleton);
+  }
+  if (options_.max_spheres == 0)
+    options_.max_spheres = static_cast<int>(std::min<Index>(spheres_of_any + spheres_of_branch * branches, most_automatic_spheres));
+  most_centers_ = options_.centers;
+  if (options_.centers == 0) {
+    const Index vertices = solver_positions_.rows();
+    most_centers_ = std::min(most_automatic_centers, vertices);
+    options_.centers = std::min(centers_of_any + centers_of_branch * branches, most_centers_ / 2 + 1);
+  }
+
   SpherePackingOptions packing;
   packing.max_spheres = options_.max_spheres;
-  body_.spheres = interior_->sheet()                        ? spread_spheres(body_.domain, options_.max_spheres)
-                  : options_.packing == SpherePacking::tree ? sphere_tree(body_.domain, depth_, packing)
-                                                            : pack_spheres(body_.domain, depth_, packing);
+  if (sheet) {
+    body_.spheres = spread_spheres(body_.domain, options_.max_spheres);
+  } else if (options_.packing == SpherePacking::tree) {
+    body_.spheres = sphere_tree(body_.domain, depth_, packing);
+  } else if (options_.packing == SpherePacking::medial) {
+    body_.spheres = pack_spheres(body_.domain, depth_, packing);
+  } else {
+    packing.min_radius = least_on_skeleton;
+    packing.medial_slope = 1;  // what is wide is filled
+    SkeletonSphereOptions along;
+    along.packing = packing;
+    along.fill_radius = least_beside;
+    for (const SkeletonSphere& sphere : skeleton_spheres(body_.domain, depth_, body_.skeleton, along)) {
+      body_.spheres.push_back(sphere);
+      body_.sphere_branches.push_back(sphere.branch);
+    }
+  }
   // A part whose only voxels lie on its surface still gets a sphere that has an extent.
   for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * body_.domain.grid().spacing);
   interior_.reset();
   depth_ = {};
+  enter(Phase::distance);
+}
+
+Result<Done> Bake::measure() {
   auto distance = make_interior_distance(options_.method, body_.domain, solver_positions_, mesh_.triangles);
   if (!distance) return distance.error();
   distance_ = std::move(*distance);
@@ -209,7 +268,13 @@ void Bake::begin_sampling() {
   if (!options_.density.empty())
     for (std::uint32_t place = 0; place < mesh_.weld.unique.size(); ++place)
       density.push_back(options_.density[mesh_.stored_number(place)]);
-  sampling_ = std::make_unique<CenterSampling>(body_.domain, solver_positions_, *distance_, options_.centers, std::move(density));
+  CenterSamplingOptions sampling;
+  sampling.count = options_.centers;
+  sampling.most = most_centers_;
+  sampling.per_sphere = most_centers_ > options_.centers ? centers_of_sphere : 0;
+  sampling.most_code = most_codes[static_cast<unsigned>(options_.quality)];
+  sampling.density = std::move(density);
+  sampling_ = std::make_unique<CenterSampling>(body_.domain, solver_positions_, *distance_, body_.spheres, std::move(sampling));
   enter(Phase::centers);
 }
 
@@ -235,6 +300,7 @@ double Bake::progress() const {
     case Phase::depth:
       return 0.18 + 0.08 * static_cast<double>(depth_.size()) / static_cast<double>(body_.domain.size());
     case Phase::spheres:
+    case Phase::distance:
       return 0.26;
     case Phase::prepare:
       return 0.27 + 0.05 * part_;

@@ -11,18 +11,20 @@
 #include "core/irbf/body.hpp"
 #include "core/irbf/center_sampling.hpp"
 #include "core/irbf/counted_mesh.hpp"
-#include "core/irbf/interior_voxels.hpp"
+#include "core/irbf/interior_search.hpp"
 
 namespace handlebody {
 
-enum class SpherePacking : unsigned { skeleton = 0, tree = 1 };
-constexpr unsigned sphere_packing_count = 2;
+/** Spheres along a curve skeleton and beside it, from an octree, or greedily along the medial axis. */
+enum class SpherePacking : unsigned { skeleton = 0, tree = 1, medial = 2 };
+constexpr unsigned sphere_packing_count = 3;
 
 struct BakeOptions {
-  Index centers = 200;
-  int resolution = 96;  // voxels along the longest side of the box
+  Index centers = 0;   // 0: chosen, see automatic_centers in bake.cpp
+  int resolution = 0;  // voxels along the longest side of the box; 0: chosen, see interior_search.hpp
+  BakeQuality quality = BakeQuality::normal;
   DistanceMethod method = DistanceMethod::fast_marching;
-  int max_spheres = 120;
+  int max_spheres = 0;  // 0: chosen
   SpherePacking packing = SpherePacking::skeleton;
   std::vector<double> density;     // of centers, relative to 1, one per vertex; empty for 1 throughout
   std::vector<std::uint8_t> used;  // one per vertex, not 0 for those of a solid: empty for those that triangles use
@@ -48,20 +50,24 @@ class Bake {
 
   bool finished() const { return phase_ == Phase::finished; }
 
+  /** Voxels along the longest side of the box, as given or as chosen; 0 for a grid that was given. */
+  int resolution() const { return resolution_; }
+
   /** The result of a finished bake. */
   const Body& body() const { return body_; }
   const std::vector<BakeWarning>& warnings() const { return warnings_; }
 
  private:
-  enum class Phase { interior, depth, spheres, prepare, centers, finished };
+  enum class Phase { interior, depth, spheres, distance, prepare, centers, finished };
 
   Bake();
   void enter(Phase phase);
   void take_interior();
   void measure_depth();
-  Result<Done> pack();
+  void pack();
   void begin_sampling();
   void take_centers();
+  Result<Done> measure();
   double progress() const;
 
   BakeOptions options_;
@@ -69,10 +75,12 @@ class Bake {
   std::vector<BakeWarning> warnings_;
   CountedMesh mesh_;         // its triangles are turned to agree
   Points solver_positions_;  // of its places
+  int resolution_ = 0;
+  Index most_centers_ = 0;
 
   Phase phase_ = Phase::interior;
   double part_ = 0;  // the fraction of the phase that is done
-  std::unique_ptr<InteriorVoxels> interior_;
+  std::unique_ptr<InteriorSearch> interior_;
   std::vector<double> depth_;  // distance of each voxel from the surface
   std::unique_ptr<InteriorDistance> distance_;
   std::unique_ptr<CenterSampling> sampling_;

@@ -13,6 +13,8 @@ namespace {
 
 /** Centers that are evaluated side by side, and samples per chunk. */
 constexpr Index lanes = 8, chunk = 32;
+/** Mean spacings of centers that a kernel is wide at least: narrower ones leave dents between them. */
+constexpr double narrowest = 2;
 /** A sum of kernels is no divisor when it is smaller than this part of the sum of their magnitudes. */
 constexpr double cancellation = 1e-3;
 
@@ -55,7 +57,9 @@ Basis::Basis(const Body& body, const Kernel& kernel) : body_(&body), kernel_(ker
       }
     }
   });
-  if (kernel_.has_width()) kernel_.width = kernel.width * (size() > 1 ? nearest.mean() : 1.0);
+  if (!kernel_.has_width()) return;
+  if (size() > 1) spacing_ = nearest.mean();
+  kernel_.width = kernel.width > 0 ? kernel.width * spacing_ : std::max(body.smooth_length, narrowest * spacing_);
 }
 
 template <typename Scalar>

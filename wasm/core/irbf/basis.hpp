@@ -12,11 +12,14 @@ namespace handlebody {
 class Basis {
  public:
   /** `kernel` is any radial one; its width is in mean spacings of the centers: the mean interior distance of a center to its
-   * nearest neighbor (the bounding box's diagonal where there is only one). A kernel without a width takes distances over the
-   * bounding box's diagonal. `body` must outlive the basis. */
+   * nearest neighbor (the bounding box's diagonal where there is only one). 0 chooses the body's smooth length, two spacings at
+   * least. A kernel without a width takes distances over the bounding box's diagonal. `body` must outlive the basis. */
   Basis(const Body& body, const Kernel& kernel);
 
   const Kernel& kernel() const { return kernel_; }
+
+  /** The kernel's width in mean spacings of the centers; 0 for a kernel without one. */
+  double relative_width() const { return kernel_.has_width() ? kernel_.width / spacing_ : 0; }
   Index size() const { return std::ssize(body_->centers); }
 
   /** φ at the samples: samples × centers; every row sums to 1, but for rows where a kernel of compact support vanishes: there the
@@ -29,6 +32,7 @@ class Basis {
  private:
   const Body* body_;
   Kernel kernel_;
+  double spacing_ = 1;  // mean, of the centers
 };
 
 }  // namespace handlebody

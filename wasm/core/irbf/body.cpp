@@ -10,7 +10,8 @@ namespace {
 
 constexpr Index most_vertices = 4'000'000;
 constexpr Index most_triangles = 8'000'000;
-constexpr Index fewest_vertices = 4;  // the corners of the smallest volume
+constexpr double most_smooth_length = 1e3;  // diagonals: kernels as wide tell places no longer apart
+constexpr Index fewest_vertices = 4;        // the corners of the smallest volume
 
 Error invalid_body(std::initializer_list<Word> message) {
   return {HB_ERROR_BODY_INVALID, message, {"Bake the model again with this version."}};
@@ -96,6 +97,8 @@ Result<Done> check_body(const Body& body) {
       body.distance_scale <= 0) {
     return invalid_body({"The baked body's interior distances do not fit its centers and voxels."});
   }
+  if (!(body.smooth_length >= 0 && body.smooth_length <= most_smooth_length))
+    return invalid_body({"The baked body's smooth length is not a number from 0 to ", most_smooth_length, "."});
   for (std::size_t s = 0; s < body.spheres.size(); ++s) {
     const Sphere& sphere = body.spheres[s];
     if (sphere.center.allFinite() && std::isfinite(sphere.radius) && sphere.radius > 0) continue;

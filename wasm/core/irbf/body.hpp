@@ -6,6 +6,7 @@
 
 #include "core/distance/voxel_domain.hpp"
 #include "core/errors/result.hpp"
+#include "core/irbf/curve_skeleton.hpp"
 #include "core/irbf/sphere_packing.hpp"
 #include "core/numerics/types.hpp"
 
@@ -30,6 +31,11 @@ struct Body {
   std::vector<std::uint16_t> distances;  // centers × voxels: interior distance = distance_scale · code
   double distance_scale = 0;
   std::vector<Sphere> spheres;
+  double smooth_length = 0;  // see curve_skeleton.hpp; 0 where it is not known
+
+  // What the deformation does not need, kept to be looked at.
+  CurveSkeleton skeleton;                     // without nodes where spheres were placed otherwise
+  std::vector<std::int32_t> sphere_branches;  // of the skeleton, one per sphere, −1 for none; or empty
 
   Points solver_positions() const;
   Vector3 center_position(Index center) const;

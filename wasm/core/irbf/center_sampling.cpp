@@ -12,7 +12,9 @@ namespace {
 // Work of a bounded step: enough to be worth a call, little enough for a frame.
 constexpr Index points_per_step = 1024, codes_per_step = 1 << 20;
 constexpr double far_outside = 1.5;  // spacings beyond which stencils hold on to the nearest voxel
-constexpr double most_code = 65535;
+constexpr double finest_code = 65535;
+constexpr double least_gap = 0.1;   // between centers that serve a sphere, in its radii
+constexpr double sphere_reach = 3;  // radii within which a sphere's centers lie
 
 std::uint16_t nearest_code(double code) {
   const double above = code + 0.5;
@@ -21,9 +23,9 @@ std::uint16_t nearest_code(double code) {
 
 }  // namespace
 
-CenterSampling::CenterSampling(const VoxelDomain& domain, const Points& positions, InteriorDistance& distance, Index count,
-                               std::vector<double> density)
-    : domain_(domain), positions_(positions), distance_(distance), count_(count), density_(std::move(density)) {}
+CenterSampling::CenterSampling(const VoxelDomain& domain, const Points& positions, InteriorDistance& distance,
+                               const std::vector<Sphere>& spheres, CenterSamplingOptions options)
+    : domain_(domain), positions_(positions), distance_(distance), spheres_(spheres), options_(std::move(options)) {}
 
 double CenterSampling::step() {
   switch (phase_) {
@@ -44,7 +46,8 @@ double CenterSampling::step() {
     case Phase::stencils:
       return 0.12 * static_cast<double>(samples_.size()) / static_cast<double>(positions_.rows());
     case Phase::centers:
-      return 0.12 + 0.86 * static_cast<double>(centers_.size()) / static_cast<double>(count_);
+      return 0.12 +
+             0.86 * static_cast<double>(centers_.size()) / static_cast<double>(std::max(options_.most, std::ssize(centers_)));
     case Phase::quantize:
       return 0.98;
     case Phase::finished:
@@ -74,14 +77,17 @@ void CenterSampling::begin() {
   const auto vertices = static_cast<std::size_t>(positions_.rows());
   coverage_.assign(vertices, std::numeric_limits<double>::infinity());
   weight_.assign(vertices, 1);
-  for (std::size_t v = 0; v < density_.size(); ++v) weight_[v] = std::sqrt(density_[v]);
+  for (std::size_t v = 0; v < options_.density.size(); ++v) weight_[v] = std::sqrt(options_.density[v]);
   double best = -1;
   for (Index v = 0; v < positions_.rows(); ++v) {
     const double distance = weight_[v] * weight_[v] * positions_.row(v).squaredNorm();
     if (distance > best) best = distance, next_ = v;
   }
   field_.resize(domain_.size());
-  distances_.reserve(field_.size() * static_cast<std::size_t>(count_));
+  distances_.reserve(field_.size() * static_cast<std::size_t>(options_.count));
+  for (const Sphere& sphere : spheres_) middles_.add(domain_, sphere.center);
+  near_.assign(spheres_.size(), 0);
+  given_up_.assign(spheres_.size(), 0);
   phase_ = Phase::centers;
 }
 
@@ -96,8 +102,8 @@ void CenterSampling::add_center() {
   for (const double distance : field_) {
     if (distance > longest && distance <= std::numeric_limits<double>::max()) longest = distance;
   }
-  scales_.push_back(longest / most_code);
-  for (const double distance : field_) distances_.push_back(nearest_code(std::min(distance, longest) * (most_code / longest)));
+  scales_.push_back(longest / finest_code);
+  for (const double distance : field_) distances_.push_back(nearest_code(std::min(distance, longest) * (finest_code / longest)));
 
   // The next center is the vertex that is farthest, inside the body, from all so far. Only vertices whose straight distance to the
   // new one is below their interior distance to every earlier one can come nearer to it.
@@ -122,21 +128,47 @@ void CenterSampling::add_center() {
     coverage_[v] = std::min(coverage_[v], distance);
     compare(v);
   }
-  if (std::ssize(centers_) < count_) return;
-  distance_scale_ = *std::max_element(scales_.begin(), scales_.end());
+  for (std::size_t s = 0; s < spheres_.size(); ++s) {
+    const Sphere& sphere = spheres_[s];
+    const double reach = sphere_reach * sphere.radius;
+    if ((sphere.center - center).squaredNorm() > reach * reach) continue;
+    near_[s] += middles_.distance_from(center, interior, static_cast<Index>(s)) <= reach;
+  }
+  if (std::ssize(centers_) < options_.count || serve_spheres()) return;
+  distance_scale_ = *std::max_element(scales_.begin(), scales_.end()) * (finest_code / options_.most_code);
   next_ = 0;
   phase_ = Phase::quantize;
+}
+
+/** Looks for a vertex that is to be a center for the sake of a sphere that has too few near it: of those within its reach, the one
+ *  that is farthest from all centers. Whether it is within reach inside the body, too, its own distances tell. */
+bool CenterSampling::serve_spheres() {
+  if (std::ssize(centers_) >= options_.most) return false;
+  for (std::size_t s = 0; s < spheres_.size(); ++s) {
+    if (near_[s] >= options_.per_sphere || given_up_[s]) continue;
+    const double reach = sphere_reach * spheres_[s].radius;
+    double farthest = 0;
+    for (Index v = 0; v < samples_.size(); ++v) {
+      if (coverage_[v] <= farthest || (samples_.point(v) - spheres_[s].center).squaredNorm() > reach * reach) continue;
+      farthest = coverage_[v];
+      next_ = v;
+    }
+    // Centers closer than a part of the radius would tell no more.
+    if (farthest > least_gap * spheres_[s].radius) return true;
+    given_up_[s] = 1;
+  }
+  return false;
 }
 
 /** Brings all centers' codes to one scale, which rounds them once more: they are off by one code at most. */
 void CenterSampling::quantize() {
   const auto row = std::ssize(field_);
-  for (Index done = 0; done < codes_per_step && next_ < count_; done += row, ++next_) {
+  for (Index done = 0; done < codes_per_step && next_ < std::ssize(centers_); done += row, ++next_) {
     const double factor = scales_[next_] / distance_scale_;
     std::uint16_t* codes = distances_.data() + next_ * row;
     for (Index v = 0; v < row; ++v) codes[v] = nearest_code(codes[v] * factor);
   }
-  if (next_ == count_) phase_ = Phase::finished;
+  if (next_ == std::ssize(centers_)) phase_ = Phase::finished;
 }
 
 }  // namespace handlebody

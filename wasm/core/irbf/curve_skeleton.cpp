@@ -365,6 +365,19 @@ CurveSkeleton curve_skeleton(const VoxelDomain& domain, const std::vector<double
   return Drawing(domain, depth, graph).draw();
 }
 
+double smooth_length(const CurveSkeleton& skeleton) {
+  double sum = 0, squares = 0, longest = 0;
+  for (const SkeletonBranch& branch : skeleton.branches) {
+    double length = 0;
+    for (std::size_t i = 1; i < branch.nodes.size(); ++i)
+      length += (skeleton.nodes[branch.nodes[i]].place - skeleton.nodes[branch.nodes[i - 1]].place).norm();
+    sum += length;
+    squares += length * length;
+    longest = std::max(longest, length + skeleton.nodes[branch.nodes.front()].radius + skeleton.nodes[branch.nodes.back()].radius);
+  }
+  return skeleton.hubs.empty() || !(sum > 0) ? longest : 0.5 * squares / sum;
+}
+
 Indices tips(const CurveSkeleton& skeleton) {
   Indices found;
   for (const SkeletonBranch& branch : skeleton.branches) {

@@ -34,7 +34,7 @@ Irbf::Irbf(std::shared_ptr<const PreparedBody> body)
       deformed_(prepared_->rest),
       deformed_normals_(prepared_->rest.rows(), 3),
       frame_(prepared_->kernel->scratch()),
-      local_global_(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit),
+      local_global_(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit, prepared_->options.volume()),
       shapes_(prepared_->body.spheres.size() * shape_size),
       maps_(local_global_.maps()),
       coefficients_(Matrix::Zero(prepared_->basis.size(), 3)) {
@@ -57,7 +57,7 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   }
   ReducedSystem system;
   if (!kinds.empty()) {
-    auto made = make_reduced_system(prepared_->edge_rows, prepared_->gram, constraints->rows(), prepared_->options.anchor_weight,
+    auto made = make_reduced_system(prepared_->edge_rows, prepared_->gram, constraints->rows(), prepared_->anchor_weight,
                                     prepared_->options.constraints);
     if (!made) return made.error();
     system = std::move(*made);
@@ -74,7 +74,7 @@ Result<Done> Irbf::set_handles(const ConstPoints& handles, const std::vector<Han
   work.warm = work_.warm;
   work.solved_targets.reserve(targets.size());
   work.solved_shapes = work_.solved_shapes;
-  LocalGlobal local_global(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit);
+  LocalGlobal local_global(prepared_->edges, prepared_->edge_scale, prepared_->options.sphere_fit, prepared_->options.volume());
   local_global.shape(work.solved_shapes.data());
   local_global.maps() = local_global_.maps();
   if (!kinds.empty()) local_global.set_system(system.hat);

@@ -22,7 +22,8 @@ Error invalid_option(const char* name, double value, const char* remedy) {
 
 Result<Done> check_options(const IrbfOptions& options) {
   const double width = options.kernel.width;
-  if (!(width > 0) || !std::isfinite(width)) return invalid_option("relative width", width, "Use a positive number, such as 2.");
+  if (!(width >= 0) || !std::isfinite(width))
+    return invalid_option("relative width", width, "Use a positive number, such as 2, or have it chosen.");
   if (options.kernel.kind > KernelKind::custom || options.kernel.kind == KernelKind::clamped_plate)
     return invalid_option("kernel", static_cast<double>(options.kernel.kind), "Use a radial kernel of the list.");
   if (options.smoothness != 0 && !(options.smoothness >= 1e-12 && options.smoothness <= 1e6))
@@ -30,7 +31,9 @@ Result<Done> check_options(const IrbfOptions& options) {
   if (!(options.anchor_weight > 0) || !(options.anchor_weight <= 1e6))
     return invalid_option("anchor weight", options.anchor_weight, "Use a positive number up to 1e6, such as 100.");
   if (!std::isfinite(options.edge_exponent) || std::abs(options.edge_exponent) > 4)
-    return invalid_option("edge exponent", options.edge_exponent, "Use a number from -4 to 4, such as -1.");
+    return invalid_option("edge exponent", options.edge_exponent, "Use a number from -4 to 4, such as 1.");
+  if (!(options.poisson_ratio >= 0 && options.poisson_ratio <= 0.49))
+    return invalid_option("Poisson ratio", options.poisson_ratio, "Use a number from 0 to 0.49, such as 0.4.");
   return Done{};
 }
 
@@ -68,6 +71,8 @@ Result<Done> PreparedBody::prepare_spheres() {
   gram = MatrixXd::Zero(4 + centers, 4 + centers);
   gram.selfadjointView<Eigen::Lower>().rankUpdate(edge_rows.transpose());
   gram.diagonal().tail(centers).array() += smoothness;
+  const Vector lengths = energy->edges.rowwise().norm().cwiseProduct(energy->edge_scale);
+  anchor_weight = options.anchor_weight * std::sqrt(lengths.cwiseQuotient(energy->edge_scale.cwiseAbs2()).mean());
   edges = std::move(energy->edges);
   edge_scale = std::move(energy->edge_scale);
 

@@ -17,14 +17,18 @@
 namespace handlebody {
 
 struct IrbfOptions {
-  /** Radial; its width h in mean center spacings. */
-  Kernel kernel = Kernel::of(KernelKind::inverse_multiquadric, 2, 3);
+  /** Radial; its width h in mean center spacings, 0 for one that is chosen. */
+  Kernel kernel = Kernel::of(KernelKind::inverse_multiquadric, 0, 3);
   double smoothness = 0;       // λ of eq. (10); 0 chooses it, see sphere_energy.hpp
-  double anchor_weight = 100;  // μ
-  double edge_exponent = -1;   // α of eq. (8)
+  double anchor_weight = 100;  // μ, relative to the edges of spheres
+  double edge_exponent = 1;    // α of eq. (8)
   ConstraintKind constraints = ConstraintKind::soft;
   FramePrecision precision = FramePrecision::fixed;
   SphereFit sphere_fit = SphereFit::rigid;
+  double poisson_ratio = 0.45;  // below 0.5, at which nothing changes volume; 0 is paper 001's energy
+
+  /** κ of local_global.hpp: λ/2μ of fixed corotated elasticity. */
+  double volume() const { return poisson_ratio / (1 - 2 * poisson_ratio); }
 };
 
 struct PreparedBody {
@@ -40,6 +44,7 @@ struct PreparedBody {
   const Body body;
   const Basis basis;
   double smoothness = 0;        // λ, as given or as chosen
+  double anchor_weight = 0;     // μ, times the root of the mean of w‖e‖ over the spheres' edges, which is 1 for the paper's w
   double structure_radius = 0;  // of a rotation handle's six points
 
   MatrixXd edge_rows;  // 3B × (4 + C): √w [e 0 Δφ]

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/numerics/products.hpp"
+
 namespace handlebody {
 
 namespace {
@@ -27,40 +29,50 @@ Matrix3 exponential(const Vector3& turn) {
 
 }  // namespace
 
-RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit)
+RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit, double volume)
     : freedoms_(fit == SphereFit::similarity ? 4 : 3) {
   const Index spheres = edges.rows() / 3;
   if (spheres > most_spheres) return;
-  MatrixXd hessian = MatrixXd::Zero(freedoms_ * spheres, freedoms_ * spheres);
-  gradient_.resize(hessian.rows());
+  // A fourth number of each sphere comes after the turns of all.
+  const Index turns = 3 * spheres, all = freedoms_ == 4 || volume > 0 ? turns + spheres : turns;
+  MatrixXd hessian = MatrixXd::Zero(all, all);
+  gradient_.resize(freedoms_ * spheres);
   for (Index b = 0; b < spheres; ++b) {
     for (Index a = b; a < spheres; ++a) {
-      // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm σ move an edge by Jₑ (ω, σ) = ω × e + σ e. Element by element, which
-      // compiles to half the bytes of Eigen's blocks.
-      double* const block = &hessian(freedoms_ * a, freedoms_ * b);
+      // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm (or a pressure) σ move an edge by Jₑ (ω, σ) = ω × e + σ e. Element by
+      // element, which compiles to half the bytes of Eigen's blocks.
       for (Index i = 3 * a; i < 3 * a + 3; ++i) {
         for (Index j = 3 * b; j < 3 * b + 3; ++j) {
           const double k = (i == j ? 1 + damping : 0) - hat(i, j);
           const Vector3 e = edges.row(i), f = edges.row(j);
           const double along = e.dot(f);
           for (Index column = 0; column < 3; ++column) {
-            double* const to = block + column * hessian.rows();
-            for (Index row = 0; row < 3; ++row) to[row] += k * ((row == column ? along : 0) - f[row] * e[column]);  // [e]×ᵀ [f]×
+            for (Index row = 0; row < 3; ++row)  // [e]×ᵀ [f]×
+              hessian(3 * a + row, 3 * b + column) += k * ((row == column ? along : 0) - f[row] * e[column]);
           }
-          if (freedoms_ == 3) continue;
+          if (all == turns) continue;
           const Vector3 across = e.cross(f);
-          double* const last = block + 3 * hessian.rows();
           for (Index axis = 0; axis < 3; ++axis) {
-            last[axis] += k * across[axis];
-            block[axis * hessian.rows() + 3] -= k * across[axis];
+            hessian(turns + a, 3 * b + axis) -= k * across[axis];
+            if (a != b) hessian(turns + b, 3 * a + axis) += k * across[axis];
           }
-          last[3] += k * along;
+          hessian(turns + a, turns + b) += (volume > 0 ? (i == j ? 1 / (3 * volume) : 0) + hat(i, j) : k) * along;
         }
       }
     }
   }
+  if (volume > 0) {
+    pressure_factor_.emplace(hessian.bottomRightCorner(spheres, spheres));
+    coupling_ = hessian.bottomLeftCorner(spheres, turns);
+    MatrixXd solved = coupling_;
+    if (pressure_factor_->succeeded()) pressure_factor_->solve_in_place(solved);
+    hessian = MatrixXd(hessian.topLeftCorner(turns, turns)) + transposed_product(coupling_, solved);
+    transposed_ = coupling_.transpose();
+    pulled_.resize(spheres);
+    torques_.resize(turns);
+  }
   factor_.emplace(std::move(hessian));
-  if (!factor_->succeeded()) factor_.reset();
+  if (!factor_->succeeded() || (pressure_factor_ && !pressure_factor_->succeeded())) factor_.reset();
 }
 
 void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps,
@@ -74,14 +86,32 @@ void RotationHessian::step(const Points& edges, const Columns3& residual, const 
       torque += edge.cross(pull);
       growth += edge.dot(pull);
     }
-    gradient_.segment<3>(freedoms_ * b) = torque;
-    if (freedoms_ == 4) gradient_[4 * b + 3] = growth;
+    gradient_.segment<3>(3 * b) = torque;
+    if (freedoms_ == 4) gradient_[3 * std::ssize(maps) + b] = growth;
   }
   factor_->solve_in_place(gradient_);
   for (Index b = 0; b < std::ssize(maps); ++b) {
-    stepped[b] = maps[b] * exponential(-gradient_.segment<3>(freedoms_ * b));
-    if (freedoms_ == 4) stepped[b] *= std::exp(-std::clamp(gradient_[4 * b + 3], -1.0, 1.0));
+    stepped[b] = maps[b] * exponential(-gradient_.segment<3>(3 * b));
+    if (freedoms_ == 4) stepped[b] *= std::exp(-std::clamp(gradient_[3 * std::ssize(maps) + b], -1.0, 1.0));
   }
+}
+
+void RotationHessian::step(const Columns3& mapped, const Columns3& residual, const std::vector<Matrix3>& turns, Vector& pressure,
+                           std::vector<Matrix3>& stepped) {
+  for (Index b = 0; b < std::ssize(turns); ++b) {
+    Vector3 torque = Vector3::Zero();
+    for (Index i = 3 * b; i < 3 * b + 3; ++i) torque += mapped.row(i).cross(residual.row(i)).transpose();
+    gradient_.segment<3>(3 * b) = turns[b].transpose() * torque;
+  }
+  pulled_ = pressure;
+  pressure_factor_->solve_in_place(pulled_);
+  multiply(transposed_, pulled_, torques_);
+  gradient_ += torques_;
+  factor_->solve_in_place(gradient_);
+  multiply(coupling_, gradient_, pulled_);
+  pressure -= pulled_;
+  pressure_factor_->solve_in_place(pressure);
+  for (Index b = 0; b < std::ssize(turns); ++b) stepped[b] = turns[b] * exponential(-gradient_.segment<3>(3 * b));
 }
 
 }  // namespace handlebody

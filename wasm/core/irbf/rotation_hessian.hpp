@@ -6,6 +6,10 @@
 // I − hat hardly resists these. The Gauss-Newton Hessian at rest, kept in the spheres' own frames, has that small curvature. A
 // sphere that may grow has a fourth number beside the three of its turn: the logarithm of its scale.
 //
+// Where volume is resisted, the fourth is a pressure q: the target of a sphere's edges is R (I + q cof F) instead of R. With it the
+// energy is F's least over turns and its greatest over pressures, since κ (J − 1)² = max over q of −2q (J − 1) − q²/κ. Newton's
+// equations [A Bᵀ; B −C] are solved by two Cholesky factors, C's and that of A + Bᵀ C⁻¹ B.
+//
 // Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as
 // long as sixty of them.
 #pragma once
@@ -24,18 +28,24 @@ class RotationHessian {
  public:
   RotationHessian() = default;
 
-  /** `edges` √w e (3B×3), `hat` of ReducedSystem. Stays empty where there are too many spheres for it to pay off. */
-  RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit = SphereFit::rigid);
+  /** `edges` √w e (3B×3), `hat` of ReducedSystem, `volume` κ. Stays empty where there are too many spheres for it to pay off. */
+  RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit = SphereFit::rigid, double volume = 0);
 
   bool empty() const { return !factor_.has_value(); }
 
   /** Turns (and scales) the spheres' maps by the Newton step, from the residual Γ₁ − Z₁Π at them. Allocates nothing. */
   void step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps, std::vector<Matrix3>& stepped);
 
+  /** Turns the spheres, whose edges the targets take to `mapped`, and takes `pressure` from the energy's derivatives by the
+   * spheres' pressures, halved, to the pressures' steps. Allocates nothing. */
+  void step(const Columns3& mapped, const Columns3& residual, const std::vector<Matrix3>& turns, Vector& pressure,
+            std::vector<Matrix3>& stepped);
+
  private:
   Index freedoms_ = 3;  // of a sphere
-  std::optional<Cholesky> factor_;
-  Vector gradient_;
+  std::optional<Cholesky> factor_, pressure_factor_;
+  MatrixXd coupling_, transposed_;  // B (B×3B), Bᵀ
+  Vector gradient_, pulled_, torques_;
 };
 
 }  // namespace handlebody

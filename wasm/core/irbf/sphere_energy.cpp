@@ -8,7 +8,7 @@ namespace handlebody {
 
 namespace {
 
-constexpr double automatic_part = 0.02;
+constexpr double automatic_part = 7e-9;
 
 }  // namespace
 
@@ -36,8 +36,8 @@ Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, do
 }
 
 double automatic_smoothness(const SphereEnergy& energy) {
-  const Index centers = energy.rows.cols() - 4;
-  return automatic_part * energy.rows.rightCols(centers).squaredNorm() / static_cast<double>(centers);
+  const auto centers = static_cast<double>(energy.rows.cols() - 4);
+  return automatic_part * centers * centers * energy.rows.rightCols(energy.rows.cols() - 4).squaredNorm();
 }
 
 }  // namespace handlebody

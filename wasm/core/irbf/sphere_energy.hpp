@@ -17,16 +17,15 @@ struct SphereEnergy {
 /** `exponent` is α. Fails as the basis does. */
 Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent);
 
-/** λ chosen from the data: a fixed part, 0.02, of the curvature that a coefficient has by itself in eq. (9), on average over the
- * centers Σ w‖Δφ_c‖². So eq. (10) keeps its balance whatever the model's size, the number of spheres and of centers, their weights
- * by α and the width of the kernel, all of which change that curvature: for widths from 1 to 6 spacings by a factor of a hundred.
+/** λ chosen from the data: 7e-9 C² Σ w‖Δφ‖², over the C centers and the edges of all spheres. A function made up of C normalized
+ *  kernels has coefficients that do not depend on C, so that λ‖c‖² would grow with C, while the curvature of eq. (9) that each
+ *  coefficient has by itself falls with C²: with this λ a function costs the same part of the spheres' energy however many centers
+ * make it up, whatever the model's size, the number of spheres, their weights by α and the width of the kernel.
  *
- *  The part was picked by sweeps of λ over nine decades on a bar bent by 90° (5 to 18 spheres, 100 and 300 centers, widths 1 to 4)
- *  and the dog with a paw lifted (200 and 400 centers, widths 1.5 to 6), by the total distortion of tetrahedra and, on the dog, by
- *  how little the other leg moves. Distortion is then within about a third of the least of any λ on the bar and, for widths to 4,
- *  the dog of 200 centers. With 400 centers and widths of 3 or 4 far smaller λ do well, and it is two to three times the least: a
- *  part that is safe for few centers is cautious for many. Of the other rules that were tried, a fixed λ fails where the width
- *  changes, and a part of Σ w‖e‖² over the number of centers is as good at one width and 20 times too large at twice that. */
+ *  The part was picked together with α, the width and the Poisson ratio, for how little tips leak and how well volume is kept on
+ * ten animals, and for the distortion of a bent bar (npm run bench -- leakage, irbf): a fourth to four times as much changes the
+ * leak of ten animals from 0.53 to 0.46 of ARAP's, and the bar's distortion from 2.5 to 3.9 of it. Rejected: 0.02 of Σ w‖Δφ‖²/C,
+ * which is right for 200 centers and too little by nine times for 400. */
 double automatic_smoothness(const SphereEnergy& energy);
 
 }  // namespace handlebody
