@@ -28,16 +28,7 @@ const RECIPES = {
   spot: () => plainGlb(spot()),
 };
 
-/**
- * How each body is baked. Spot is stout, so that a coarser grid already separates its legs; a fine one would only be larger.
- * @type {Record<string, { centers: number, resolution: number, spheres: number }>}
- */
-const BAKES = {
-  dog: { centers: 200, resolution: 96, spheres: 120 },
-  spot: { centers: 150, resolution: 40, spheres: 80 },
-};
-
-/** Where bodies want to be held: vertices. @type {Record<string, [name: string, vertex: number][]>} */
+/** Where bodies want to be held: vertices. Those that are named here are baked, as by default. @type {Record<string, [name: string, vertex: number][]>} */
 const HANDLES = {
   dog: [
     ['Front right paw', 1172],
@@ -63,12 +54,12 @@ const HANDLES = {
  * @param {import('@gltf-transform/core').Document} document
  */
 async function bakedBytes(name, document) {
-  const options = BAKES[name];
-  if (!options) return toBytes(document);
+  const handles = HANDLES[name];
+  if (!handles) return toBytes(document);
   const { load } = await import('../../dist/wasm/ts/index.js');
   const { attachBody, readMesh } = await import('../../dist/web/assets/index.js');
-  const body = await (await load()).bake(readMesh(document).mesh, options);
-  await attachBody(document, { ...body, handles: (HANDLES[name] ?? []).map(([name, vertex]) => ({ name, vertex })) });
+  const body = await (await load()).bake(readMesh(document).mesh);
+  await attachBody(document, { ...body, handles: handles.map(([name, vertex]) => ({ name, vertex })) });
   return toBytes(document);
 }
 

@@ -248,18 +248,20 @@ describe('handlebody bake', () => {
   });
 
   it.each(['heat', 'mean-value'])('bakes by %s', async (method) => {
-    const result = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance', method, '--spheres', 'tree');
+    const result = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance', method, '--packing', 'tree');
     expect(result).toMatchObject({ distance: method, packing: 'tree' });
     expect((await readBody(await read('a.glb')))?.distance).toBe(method);
   });
 
   it('takes its options: method, spheres, and where they are wrong says so', async () => {
-    const few = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance=euclidean', '--max-spheres', '30');
+    const few = await bench.json('bake', SPOT, '-o', 'a.glb', ...QUICK, '--distance=euclidean', '--spheres', '30');
     expect(few).toMatchObject({ distance: 'euclidean' });
     expect(few.spheres).toBeLessThanOrEqual(30);
     for (const [option, value] of [
       ['--distance', 'manhattan'],
-      ['--spheres', '120'],
+      ['--spheres', 'tree'],
+      ['--packing', '120'],
+      ['--quality', 'best'],
       ['--centers', '-3'],
       ['--resolution', '4.5'],
     ] as const) {

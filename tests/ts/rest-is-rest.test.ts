@@ -16,7 +16,7 @@ import { faultsOf } from './support/sound-glb.ts';
 
 const folder = mkdtempSync(path.join(tmpdir(), 'handlebody-rest-'));
 const at = (name: string) => path.join(folder, name);
-const QUICK = ['--distance', 'euclidean', '--centers', '12', '--resolution', '8', '--max-spheres', '8', '-q'];
+const QUICK = ['--distance', 'euclidean', '--centers', '12', '--resolution', '8', '--spheres', '8', '-q'];
 
 beforeAll(async () => {
   await MeshoptEncoder.ready;

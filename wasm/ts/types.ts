@@ -200,8 +200,8 @@ export interface IrbfOptions {
    */
   readonly relativeWidth?: number | 'auto';
   /**
-   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto', the default, is 7e-9 C² Σ w‖Δφ‖² over the
-   * C centers and all spheres' edges, so that a function costs the same part of the spheres' energy however many centers make it up.
+   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto', the default, is 3e-4 Σ w‖Δφ‖² over all
+   * centers and spheres' edges, so that a function costs the same part of the spheres' energy however many centers make it up.
    */
   readonly smoothness?: number | 'auto';
   /** 'soft' weighs the handles' misses by μ (appendix); 'hard' meets every target exactly (§4.6). */

@@ -8,7 +8,7 @@ namespace handlebody {
 
 namespace {
 
-constexpr double automatic_part = 7e-9;
+constexpr double automatic_part = 3e-4;
 
 }  // namespace
 
@@ -36,8 +36,7 @@ Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, do
 }
 
 double automatic_smoothness(const SphereEnergy& energy) {
-  const auto centers = static_cast<double>(energy.rows.cols() - 4);
-  return automatic_part * centers * centers * energy.rows.rightCols(energy.rows.cols() - 4).squaredNorm();
+  return automatic_part * energy.rows.rightCols(energy.rows.cols() - 4).squaredNorm();
 }
 
 }  // namespace handlebody

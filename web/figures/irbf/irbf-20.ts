@@ -6,6 +6,7 @@ import { define } from '../kit/figure.ts';
 import { HeldBody } from '../kit/held-body.ts';
 import { inSpace, rows } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
+import { BAR, ENERGY } from './paper-energy.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
 const COUNTS = [50, 35, 20, 10] as const;
@@ -76,9 +77,13 @@ export default define({
   make: async (hb, { width, smoothness, places }, work): Promise<Made> => {
     const bars: One[] = [];
     for (const count of COUNTS) {
-      const body = await baked(`bar-${count}-centers`, () => box, { centers: count, spheres: 30, resolution: 48 }, work);
+      const body = await baked(`bar-${count}-centers`, () => box, { ...BAR, centers: count, spheres: 30 }, work);
       work.signal.throwIfAborted();
-      const held = new HeldBody(hb, body, ANCHORS, { smoothness, relativeWidth: (10 * width) / spacingOf(body) });
+      const held = new HeldBody(hb, body, ANCHORS, {
+        ...ENERGY,
+        smoothness,
+        relativeWidth: (10 * width) / spacingOf(body),
+      });
       held.pull(places);
       held.settle();
       bars.push({ held, body });

@@ -8,6 +8,7 @@ import { linePlot } from '../kit/line-plot.ts';
 import { through } from '../kit/samples.ts';
 import { inSpace } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
+import { BAR, ENERGY } from './paper-energy.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
 /** The left end is held; the last one is dragged. */
@@ -60,9 +61,9 @@ export default define({
   ],
   moving: ['places'],
   make: async (hb, { smoothness, places }, work): Promise<Made> => {
-    const body = await baked('bar-7', () => box, { centers: 100, spheres: 7, resolution: 48 }, work);
+    const body = await baked('bar-7', () => box, { ...BAR, spheres: 7 }, work);
     const hold: Made['hold'] = (lambda, at) => {
-      const held = new HeldBody(hb, body, ANCHORS, { smoothness: lambda });
+      const held = new HeldBody(hb, body, ANCHORS, { ...ENERGY, smoothness: lambda });
       held.pull(at);
       held.settle();
       return held;
