@@ -80,7 +80,7 @@ describe('shapes', () => {
     expect(warnings).toEqual([]);
     expect(body.mesh.positions).toEqual(solid.positions);
     expect(body.mesh.triangles).toEqual(triangles);
-    expect([body.version, body.distance]).toEqual([1, 'fast-marching']);
+    expect([body.version, body.distance]).toEqual([2, 'fast-marching']);
     expect(voxelVolume(body)).toBeCloseTo(36, 6);
     expect(moveAll(body)).toBeLessThan(1e-5);
   });

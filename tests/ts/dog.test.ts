@@ -72,7 +72,7 @@ describe('the dog, 400 centers', () => {
       expect(result.legVertices).toBeGreaterThan(1000);
       expect(result.landing).toBeLessThan(1e-3);
       expect(result.otherLeg).toBeLessThan(share);
-      expect(Math.abs(result.volume - 1)).toBeLessThan(0.01);
+      expect(Math.abs(result.volume - 1)).toBeLessThan(0.015);
       expect(result.strain99).toBeLessThan(0.5);
     }
   });
@@ -85,18 +85,17 @@ describe('the dog, 400 centers', () => {
 
 describe('the dog, as served', () => {
   it('is the bake of its own mesh', async () => {
-    const again = await hb.bake(served.mesh, { centers: served.centers.length, resolution: 96, spheres: 120 });
+    const again = await hb.bake(served.mesh);
     for (const name of ['centers', 'voxels', 'distances'] as const) {
       const bytes = (body: BodyData) => Buffer.from(body[name].buffer, body[name].byteOffset, body[name].byteLength);
       expect(bytes(again).equals(bytes(served)), name).toBe(true);
     }
   });
 
-  // With 200 centers, where the above has 400.
   it('lifts a paw about as well', () => {
     const result = liftPaw(served);
     expect(result.landing).toBeLessThan(1e-3);
-    expect(result.otherLeg).toBeLessThan(0.02);
+    expect(result.otherLeg).toBeLessThan(0.015);
     expect(Math.abs(result.volume - 1)).toBeLessThan(0.01);
   });
 

@@ -187,7 +187,7 @@ describe('HANDLEBODY_body', () => {
 
   it.each([
     ['former', 0, /^Bake the model again/],
-    ['newer', 2, /^Update Handlebody/],
+    ['newer', 3, /^Update Handlebody/],
     ['unknown', 'x', /^Update Handlebody/],
   ])('refuses a %s version and says what to do', async (_, version, remedy) => {
     const document = makeScene();

@@ -5,7 +5,8 @@ import { readDog } from './support/dog.ts';
 import { boxMesh, enclosedVolume } from './support/shapes.ts';
 
 /** Spheres that count for more than smoothness, as shapes need it. */
-const STRICT = { edgeExponent: 1, smoothness: 1e-9 } as const;
+/** Kernels no wider than a sphere, for shapes of one; all else as by default. */
+const LOCAL = { relativeWidth: 2 } as const;
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
 let hb: Handlebody;
@@ -61,7 +62,7 @@ describe('shapes', () => {
   });
 
   it('stretch a sphere along an axis, and leave distant ones as they are', () => {
-    const irbf = held(STRICT);
+    const irbf = held(LOCAL);
     const middle = [...Array(bar.spheres.length / 4).keys()].sort(
       (a, b) => Math.abs(bar.spheres[4 * a] as number) - Math.abs(bar.spheres[4 * b] as number),
     );
@@ -72,7 +73,7 @@ describe('shapes', () => {
     expect(y).toBeGreaterThan(1.47);
     expect(y).toBeLessThan(1.53);
     for (const other of [x, z]) expect(other).toBeCloseTo(1, 1);
-    for (const other of stretches(irbf, last)) expect(Math.abs(other - 1)).toBeLessThan(0.005);
+    for (const other of stretches(irbf, last)) expect(Math.abs(other - 1)).toBeLessThan(0.01);
     irbf.shapes.set(IDENTITY, 9 * first);
     irbf.solve();
     for (const other of stretches(irbf, first)) expect(other).toBeCloseTo(1, 3);
@@ -81,7 +82,7 @@ describe('shapes', () => {
 
   it('inflate the served dog about its largest sphere, by half along an axis', async () => {
     const body = await readDog();
-    const irbf = hb.irbf(body, STRICT);
+    const irbf = hb.irbf(body, LOCAL);
     const radius = (s: number) => body.spheres[4 * s + 3] as number;
     const largest = [...Array(body.spheres.length / 4).keys()].reduce((a, b) => (radius(b) > radius(a) ? b : a));
     const { positions } = body.mesh;

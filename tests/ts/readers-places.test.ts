@@ -90,6 +90,16 @@ const whole = (fault: Row[0], place: string, wrong: object): Row => [
   () => checkBody({ ...sound, ...wrong } as never),
 ];
 const matching = { positionsHash: hashPositions(sound.mesh.positions) };
+/** Two nodes, one branch, one sphere on it. */
+const bones = {
+  nodes: new Float64Array(8),
+  steps: Uint32Array.of(0, 1),
+  lengths: Uint32Array.of(2),
+  parents: Int32Array.of(-1),
+  sphereBranches: Int32Array.of(0),
+};
+const boned = (fault: Row[0], place: string, wrong: object): Row =>
+  whole(fault, place, { ...matching, skeleton: { ...bones, ...wrong } });
 
 const dimensions = [
   { name: 'x', min: 0, max: 1 },
@@ -221,6 +231,12 @@ const ROWS: readonly Row[] = [
   whole('center', 'centers', { ...matching, centers: Uint32Array.of(0, 9) }),
   whole('handle-lost', 'handles', { ...matching, handles: [{ name: 'Wing', vertex: 9 }] }),
   whole('spheres', 'spheres', { ...matching, spheres: new Float64Array(3) }),
+  body('smooth-length', 'smoothLength', { version: 2, smoothLength: -1 }),
+  boned('skeleton-nodes', 'skeletonNodes', { nodes: new Float64Array(3) }),
+  boned('skeleton-step', 'skeletonBranches', { steps: Uint32Array.of(0, 2) }),
+  boned('skeleton-branch', 'skeletonBranches', { parents: Int32Array.of(0) }),
+  boned('skeleton-spheres', 'sphereBranches', { sphereBranches: new Int32Array(2) }),
+  boned('skeleton-sphere', 'sphereBranches', { sphereBranches: Int32Array.of(1) }),
 ];
 
 /** Faults that a few lines cannot make happen, and the test that does. */

@@ -129,8 +129,8 @@ HB_WHOLE_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 /* The finished body, owned by the bake. */
 HB_WHOLE_API int32_t hb_bake_body(hb_bake* bake, hb_body* body);
 
-/* The curve skeleton along which the spheres were placed (§4.2), owned by the bake: a graph, whose branches share the nodes where they
- * meet. Without nodes where spheres were placed otherwise. */
+/* The curve skeleton of the body (§4.2), owned by the bake: a graph, whose branches share the nodes where they meet. Without nodes for an
+ * open sheet. */
 typedef struct hb_skeleton {
   uint32_t node_count;
   uint32_t branch_count;

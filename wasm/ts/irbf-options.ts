@@ -12,7 +12,7 @@ export const IRBF_DEFAULTS = {
   smoothness: 'auto',
   constraints: 'soft',
   anchorWeight: 100,
-  edgeExponent: 1,
+  edgeExponent: 2,
   poissonRatio: 0.45,
   support: 4,
   order: 2,

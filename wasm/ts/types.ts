@@ -104,7 +104,7 @@ export interface BodyData {
    * where limbs meet, all of a body where none do. 0 or left out where it is not known.
    */
   readonly smoothLength?: number;
-  /** Where the spheres were placed along one. */
+  /** Left out for a sheet, which has no inside. */
   readonly skeleton?: Skeleton;
   /** Where the model wants to be held, by name; `bake` names none. */
   readonly handles?: readonly NamedHandle[];
@@ -209,8 +209,9 @@ export interface IrbfOptions {
   /** μ: the weight of an anchor relative to a sphere's edge. */
   readonly anchorWeight?: number;
   /**
-   * α of eq. (8), the exponent of the edge length in a sphere's weight. 1, the default, weighs a sphere by its volume, so that the energy is
-   * that of the body; the paper's −1 lets small spheres resist as much as large ones.
+   * α of eq. (8), the exponent of the edge length in a sphere's weight. The paper's −1 lets small spheres resist as much as large ones. With
+   * 1 a row of spheres resists being stretched as the limb that they fill does, by its section, and with 3 being bent, by the fourth power
+   * of its radius; the default, 2, lies between.
    */
   readonly edgeExponent?: number;
   /**

@@ -105,9 +105,9 @@ export class BodyExtension extends Extension {
     const body = this.document.getRoot().getExtension<BodyProperty>(HANDLEBODY_BODY);
     if (!body) return this;
     const json = body.getHeader();
-    const accessors = NAMES.map((name) => {
+    const accessors = NAMES.flatMap((name) => {
       const accessor = body.getAccessor(name);
-      return [name, accessor ? context.accessorIndexMap.get(accessor) : undefined];
+      return accessor ? [[name, context.accessorIndexMap.get(accessor)]] : [];
     });
     const root = context.jsonDoc.json;
     root.extensions = { ...root.extensions, [HANDLEBODY_BODY]: { ...json, ...Object.fromEntries(accessors) } };

@@ -213,9 +213,8 @@ void Bake::measure_depth() {
 
 void Bake::pack() {
   const bool sheet = interior_->found().sheet();
-  const bool automatic = options_.max_spheres == 0 || options_.centers == 0;
   Index branches = 0;
-  if (!sheet && (automatic || options_.packing == SpherePacking::skeleton)) {
+  if (!sheet) {
     body_.skeleton = curve_skeleton(body_.domain, depth_);
     branches = std::ssize(body_.skeleton.branches);
     body_.smooth_length = smooth_length(body_.skeleton);
@@ -248,6 +247,7 @@ void Bake::pack() {
       body_.sphere_branches.push_back(sphere.branch);
     }
   }
+  if (!sheet) body_.sphere_branches.resize(body_.spheres.size(), -1);
   // A part whose only voxels lie on its surface still gets a sphere that has an extent.
   for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * body_.domain.grid().spacing);
   interior_.reset();

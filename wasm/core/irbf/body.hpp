@@ -34,8 +34,8 @@ struct Body {
   double smooth_length = 0;  // see curve_skeleton.hpp; 0 where it is not known
 
   // What the deformation does not need, kept to be looked at.
-  CurveSkeleton skeleton;                     // without nodes where spheres were placed otherwise
-  std::vector<std::int32_t> sphere_branches;  // of the skeleton, one per sphere, −1 for none; or empty
+  CurveSkeleton skeleton;                     // without nodes for a sheet
+  std::vector<std::int32_t> sphere_branches;  // of the skeleton, one per sphere, −1 beside it; empty for a sheet
 
   Points solver_positions() const;
   Vector3 center_position(Index center) const;

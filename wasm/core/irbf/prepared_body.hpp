@@ -21,7 +21,7 @@ struct IrbfOptions {
   Kernel kernel = Kernel::of(KernelKind::inverse_multiquadric, 0, 3);
   double smoothness = 0;       // λ of eq. (10); 0 chooses it, see sphere_energy.hpp
   double anchor_weight = 100;  // μ, relative to the edges of spheres
-  double edge_exponent = 1;    // α of eq. (8)
+  double edge_exponent = 2;    // α of eq. (8)
   ConstraintKind constraints = ConstraintKind::soft;
   FramePrecision precision = FramePrecision::fixed;
   SphereFit sphere_fit = SphereFit::rigid;
