@@ -35,7 +35,7 @@ const PAGES = [
     later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json)/, /^three\/farthest/],
     // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped; 411 and 252 before
     // the wasm grew.
-    budget: { 'with three.js': 424_000, without: 265_500 },
+    budget: { 'with three.js': 430_000, without: 271_000 },
   },
   {
     name: 'one tag',
@@ -52,7 +52,7 @@ const PAGES = [
       /^_bake-in-worker/,
       /^assets\/open-unusual/,
     ],
-    budget: { 'with three.js': 420_000, 'beyond three.js and the runtime': 41_500 },
+    budget: { 'with three.js': 425_000, 'beyond three.js and the runtime': 42_000 },
   },
 ];
 

@@ -4,9 +4,9 @@ import { boxSurface } from '../kit/box.ts';
 import { range, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
 import { HeldBody } from '../kit/held-body.ts';
+import { BAR, ENERGY } from '../kit/paper-energy.ts';
 import { inSpace, rows } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
-import { BAR, ENERGY } from './paper-energy.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
 const COUNTS = [50, 35, 20, 10] as const;

@@ -5,10 +5,10 @@ import { autoRange, type StateOf } from '../kit/channel.ts';
 import { define } from '../kit/figure.ts';
 import { HeldBody } from '../kit/held-body.ts';
 import { linePlot } from '../kit/line-plot.ts';
+import { BAR, ENERGY } from '../kit/paper-energy.ts';
 import { through } from '../kit/samples.ts';
 import { inSpace } from '../kit/space-points.ts';
 import { stagePlot } from '../kit/stage-plot.ts';
-import { BAR, ENERGY } from './paper-energy.ts';
 
 const box = boxSurface([10, 2, 2], [40, 8, 8]);
 /** The left end is held; the last one is dragged. */
