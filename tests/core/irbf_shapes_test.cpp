@@ -88,7 +88,7 @@ TEST_CASE("a sphere takes the shape that it is given, along any axes, and those 
     options.kernel.width = 2;
     auto irbf = held(body, options, rest);
     set_shape(*irbf, chosen, shape);
-    const auto report = irbf->solve({});
+    const auto report = irbf->solve({1000, 1e-5, true});
     REQUIRE(report);
     CHECK(report->converged);
     const Matrix3 found = map_of(*irbf, body.spheres[chosen]);

@@ -19,6 +19,8 @@ constexpr double rounding = 1e-12;
 constexpr double least_scale = 1e-3;
 /** One that is nothing at rest keeps its size: there is nothing to tell another by. */
 constexpr double least_square = 1e-200;
+/** And one that is hardly more has no volume to speak of: the cube of this is a number still. */
+constexpr double least_volume_square = 1e-90;
 /** Where not even this part of a plain step lowers the energy, nothing does. */
 constexpr double least_part = 1e-4;
 
@@ -102,7 +104,7 @@ void LocalGlobal::measure() {
   for (Index i = 0; i < shaped_.size(); ++i) squares_[i / 9] += shaped_.data()[i] * shaped_.data()[i];
   for (Index b = 0; b < std::ssize(inverse_grams_); ++b) {
     const Matrix3 edges = three(shaped_, b);
-    inverse_grams_[b] = squares_[b] > least_square ? Matrix3(transposed_times(edges, edges).inverse()) : Matrix3::Identity();
+    inverse_grams_[b] = squares_[b] > least_volume_square ? Matrix3(transposed_times(edges, edges).inverse()) : Matrix3::Identity();
   }
 }
 
