@@ -65,7 +65,8 @@ export class LiveBody {
     if (this.#handles.length === 0) return;
     this.#irbf.setHandles(this.#handles);
     this.#irbf.targets.set(this.#good);
-    this.#irbf.solve();
+    // From rest to where a long drag had come: more than a solve's usual hundred.
+    this.#irbf.solve({ maxIterations: 1000, tolerance: 1e-6 });
   }
 
   #join(solver: HandlebodyRuntime): void {

@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
   body.centers = centers.data(), body.distances = distances.data(), body.spheres = spheres.data();
 
   hb_irbf_options options{};
-  options.anchor_weight = 100, options.edge_exponent = 1, options.poisson_ratio = 0.45, options.support = 4;
+  options.anchor_weight = 100, options.edge_exponent = 2, options.poisson_ratio = 0.4, options.support = 4;
   options.kernel = 5, options.order = 2;
   hb_irbf *irbf = nullptr, *floating = nullptr;
   check(hb_irbf_create(&body, &options, &irbf));

@@ -25,7 +25,7 @@ struct IrbfOptions {
   ConstraintKind constraints = ConstraintKind::soft;
   FramePrecision precision = FramePrecision::fixed;
   SphereFit sphere_fit = SphereFit::rigid;
-  double poisson_ratio = 0.45;  // below 0.5, at which nothing changes volume; 0 is paper 001's energy
+  double poisson_ratio = 0.4;  // below 0.5, at which nothing changes volume; 0 is paper 001's energy
 
   /** κ of local_global.hpp: λ/2μ of fixed corotated elasticity. */
   double volume() const { return poisson_ratio / (1 - 2 * poisson_ratio); }
