@@ -63,16 +63,16 @@ describe('the dog, 400 centers', () => {
 
   it('lifts one paw and leaves the other leg alone', async () => {
     const body = await bake('fast-marching');
-    // The paper's λ, and the one that is chosen, which is larger: straining legs less, it shifts the trunk a little more.
-    for (const [smoothness, share] of [
-      [1e-6, 0.015],
-      ['auto', 0.02],
+    // The paper's λ, and the one that is chosen, which is smaller here: it keeps the volume better and shifts the trunk a little more.
+    for (const [smoothness, share, volume] of [
+      [1e-6, 0.015, 0.02],
+      ['auto', 0.02, 0.006],
     ] as const) {
       const result = liftPaw(body, { smoothness });
       expect(result.legVertices).toBeGreaterThan(1000);
       expect(result.landing).toBeLessThan(1e-3);
       expect(result.otherLeg).toBeLessThan(share);
-      expect(Math.abs(result.volume - 1)).toBeLessThan(0.015);
+      expect(Math.abs(result.volume - 1)).toBeLessThan(volume);
       expect(result.strain99).toBeLessThan(0.5);
     }
   });
