@@ -17,14 +17,15 @@ struct SphereEnergy {
 /** `exponent` is α. Fails as the basis does. */
 Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent);
 
-/** λ chosen from the data: 3e-4 Σ w‖Δφ‖², over all centers and the edges of all spheres. Coefficients of normalized kernels are about as
- *  large as the function that they make up, however many centers do so: λ‖c‖² would grow with C, and Σ w‖Δφ‖² falls with it. So eq. (10)
- *  keeps its balance whatever the number of centers and spheres, the model's size, the weights by α and the width of the kernel.
+/** λ chosen from the data: 3e-4 Σ w‖Δφ‖², over all centers and the edges of all spheres. Coefficients of normalized kernels are
+ * about as large as the function that they make up, however many centers do so: λ‖c‖² would grow with C, and Σ w‖Δφ‖² falls with
+ * it. So eq. (10) keeps its balance whatever the number of centers and spheres, the model's size, the weights by α and the width of
+ * the kernel.
  *
- *  The part was picked together with α, the width and the Poisson ratio, for how little tips leak and how well volume is kept on ten
- *  animals, and for the distortion of a bent bar (npm run bench -- leakage, irbf). A fourth to four times as much changes the leak of the
- *  animals from 0.55 to 0.46 of ARAP's, but their volume and the bar's distortion grow. Rejected: 0.02 of Σ w‖Δφ‖²/C, under which 400
- *  centers leak more than 100. */
+ *  The part was picked together with α, the width and the Poisson ratio, for how little tips leak and how well volume is kept on
+ * ten animals, and for the distortion of a bent bar (npm run bench -- leakage, irbf). A fourth to four times as much changes the
+ * leak of the animals from 0.55 to 0.46 of ARAP's, but their volume and the bar's distortion grow. Rejected: 0.02 of Σ w‖Δφ‖²/C,
+ * under which 400 centers leak more than 100. */
 double automatic_smoothness(const SphereEnergy& energy);
 
 }  // namespace handlebody
