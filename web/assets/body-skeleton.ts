@@ -25,7 +25,7 @@ export function storeSkeleton({ nodes, steps, lengths, parents, sphereBranches }
   };
 }
 
-/** Throws the fault 'skeleton' for what contradicts itself. */
+/** Throws a fault where a branch runs past the end; `checkSkeleton` finds the rest. */
 export function readSkeleton({ skeletonNodes, skeletonBranches, sphereBranches }: StoredSkeleton): Skeleton {
   const [lengths, parents, steps]: [number[], number[], number[]] = [[], [], []];
   for (let at = 0; at < skeletonBranches.length; ) {
@@ -36,14 +36,13 @@ export function readSkeleton({ skeletonNodes, skeletonBranches, sphereBranches }
     parents.push(parent - 1);
     lengths.push(length);
   }
-  const skeleton = {
+  return {
     nodes: Float64Array.from(skeletonNodes),
     steps: Uint32Array.from(steps),
     lengths: Uint32Array.from(lengths),
     parents: Int32Array.from(parents),
     sphereBranches: Int32Array.from(sphereBranches, (branch) => branch - 1),
   };
-  return skeleton;
 }
 
 /** Throws the fault of what a skeleton says of nodes, branches and `spheres` spheres that are not there. */

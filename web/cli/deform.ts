@@ -16,6 +16,8 @@ export const DEFORM_OPTIONS: Options = { ...WRITES, handles: { type: 'string' } 
 
 /** From rest, once: as many as it takes. */
 const MAX_ITERATIONS = 1000;
+/** Of a diagonal in an iteration: nobody waits for a frame, and what is left to go is more than the last step. */
+const TOLERANCE = 1e-7;
 
 /** `handlebody deform`: a baked model, bent by handles. */
 export async function deformCommand({ values, words, report, signal, clock }: Run): Promise<void> {
@@ -55,7 +57,7 @@ export async function deformCommand({ values, words, report, signal, clock }: Ru
   clock.lap('prepare');
   irbf.targets.set(targets);
   for (const [sphere, shape] of shapes) irbf.shapes.set(shape, 9 * sphere);
-  const solved = fromHandles(handlesName, () => irbf.solve({ maxIterations: MAX_ITERATIONS }));
+  const solved = fromHandles(handlesName, () => irbf.solve({ maxIterations: MAX_ITERATIONS, tolerance: TOLERANCE }));
   clock.lap('solve');
   const shape = { positions: new Float32Array(vertexCount * 3), normals: new Float32Array(vertexCount * 3), origin };
   const restNormals = sceneNormals(ranges);

@@ -131,7 +131,7 @@ function table(facts: Facts): string[] {
     rows.push(
       ['  for this shape', 'yes'],
       ['  centers', body.centers],
-      ['  spheres', body.spheres],
+      ['  spheres', body.branches === undefined ? body.spheres : `${body.spheres}, skeleton of ${body.branches} branches`],
       ['  voxels', `${body.voxels} of ${body.grid.dimensions.join(' × ')}, ${short(body.grid.spacing)} apart`],
       [
         '  distances',

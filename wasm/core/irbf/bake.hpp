@@ -50,9 +50,6 @@ class Bake {
 
   bool finished() const { return phase_ == Phase::finished; }
 
-  /** Voxels along the longest side of the box, as given or as chosen; 0 for a grid that was given. */
-  int resolution() const { return resolution_; }
-
   /** The result of a finished bake. */
   const Body& body() const { return body_; }
   const std::vector<BakeWarning>& warnings() const { return warnings_; }
@@ -75,8 +72,7 @@ class Bake {
   std::vector<BakeWarning> warnings_;
   CountedMesh mesh_;         // its triangles are turned to agree
   Points solver_positions_;  // of its places
-  int resolution_ = 0;
-  Index most_centers_ = 0;
+  Index most_centers_ = 0;   // spread evenly, and for the sake of spheres
 
   Phase phase_ = Phase::interior;
   double part_ = 0;  // the fraction of the phase that is done

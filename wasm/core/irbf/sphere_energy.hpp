@@ -22,10 +22,10 @@ Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, do
  * it. So eq. (10) keeps its balance whatever the number of centers and spheres, the model's size, the weights by α and the width of
  * the kernel.
  *
- *  The part was picked together with α, the width and the Poisson ratio, for how little tips leak and how well volume is kept on
- * ten animals, and for the distortion of a bent bar (npm run bench -- leakage, irbf). A fourth to four times as much changes the
- * leak of the animals from 0.55 to 0.46 of ARAP's, but their volume and the bar's distortion grow. Rejected: 0.02 of Σ w‖Δφ‖²/C,
- * under which 400 centers leak more than 100. */
+ *  The part was picked together with α, the width and the Poisson ratio, for how little the tips of fourteen models leak and how
+ *  well they keep their volume (npm run bench -- leakage), and for the distortion of a bent bar (npm run bench -- irbf): more of it
+ *  leaks less, loses more volume and distorts the bar more. Rejected: 0.02 of Σ w‖Δφ‖²/C, under which 400 centers leak more than
+ * 100, and C² times as much as now, under which a bar with many centers is too soft. */
 double automatic_smoothness(const SphereEnergy& energy);
 
 }  // namespace handlebody
