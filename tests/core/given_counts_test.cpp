@@ -146,7 +146,7 @@ TEST_CASE("a baked body whose counts or numbers are impossible is refused") {
   for (double progress = 0; progress < 1;) REQUIRE(hb_bake_step(bake, &progress) == HB_OK);
   hb_body whole;
   REQUIRE(hb_bake_body(bake, &whole) == HB_OK);
-  const hb_irbf_options options{2, 1e-6, 100, -1, 0, 1, 5, 0, 2, 0, 1, 0};
+  const hb_irbf_options options{2, 1e-6, 100, -1, 0, 1, 5, 0, 2, 0, 1, 0, 0};
   hb_irbf* made = nullptr;
   for (const std::uint32_t count : impossible) {
     for (const auto member : {&hb_body::vertex_count, &hb_body::triangle_count, &hb_body::voxel_count, &hb_body::center_count,

@@ -86,3 +86,52 @@ TEST_CASE("a kernel that fails at a sphere's end is named") {
   REQUIRE_FALSE(made);
   CHECK(made.error().code == HB_ERROR_KERNEL_FAILED);
 }
+
+TEST_CASE("twelve points a sphere have the edges and the affine part of six, and nothing beside them for what is linear") {
+  const EnergeticBar bar;
+  for (const double exponent : {-1.0, 0.0, 2.0}) {
+    const SphereEnergy six = bar.energy(exponent);
+    CHECK(six.beside.rows() == 0);
+    const auto twelve = make_sphere_energy(bar.body, bar.basis, exponent, SphereStructure::icosahedron);
+    REQUIRE(twelve);
+    CHECK((twelve->edges - six.edges).norm() < 1e-13 * six.edges.norm());
+    CHECK((twelve->edge_scale - six.edge_scale).norm() < 1e-13 * six.edge_scale.norm());
+    REQUIRE(twelve->beside.rows() == 36);
+    CHECK(twelve->beside.leftCols<4>().norm() == 0);
+    CHECK(twelve->beside.rightCols(6).norm() > 1e-3 * twelve->rows.rightCols(6).norm());
+    CHECK(twelve->beside.rightCols(6).rowwise().sum().norm() < 1e-13);
+  }
+}
+
+TEST_CASE("the rows of an ellipsoid and what is beside them have the sum of squares of all its edges") {
+  EnergeticBar bar;
+  bar.body.spheres = {{Vector3(0.05, 0.01, 0), 0.06, Vector3(0.2, 0.05, 0.02)}};
+  const double exponent = 1.5;
+  const auto energy = make_sphere_energy(bar.body, bar.basis, exponent);
+  REQUIRE(energy);
+  const StructureEdges made = structure_edges(bar.body.spheres[0], SphereStructure::icosahedron);
+  InteriorSamples samples;
+  for (const Vector3& point : made.points) samples.add(bar.body.domain, point);
+  Matrix phi(33, 6);
+  REQUIRE(bar.basis.evaluate<double>(samples, phi));
+  MatrixXd all(32, 10);
+  for (Index i = 0; i < 32; ++i) {
+    const auto& [from, to, scale] = made.edges[i];
+    const Vector3 edge = scale * (made.points[to] - made.points[from]);
+    const double root = std::sqrt(made.share * std::pow(0.12, exponent));
+    all.row(i) << root * edge.transpose(), 0, root * scale * (phi.row(Index(to)) - phi.row(Index(from)));
+  }
+  const MatrixXd expected = all.transpose() * all;
+  const MatrixXd parts = energy->rows.transpose() * energy->rows + energy->beside.transpose() * energy->beside;
+  CHECK((parts - expected).norm() < 1e-12 * expected.norm());
+  // Its edges are perpendicular, the first along it.
+  const Matrix3 gram = energy->edges * energy->edges.transpose();
+  CHECK((gram - gram.diagonal().asDiagonal().toDenseMatrix()).norm() < 1e-13 * gram.norm());
+  CHECK(gram(0, 0) > gram(1, 1));
+  for (Index i = 0; i < 3; ++i)
+    CHECK(energy->edge_scale[i] * energy->edges.row(i).norm() == doctest::Approx(2 * half_axes(bar.body.spheres[0]).col(i).norm()));
+
+  double across = 0;
+  for (Index i = 0; i < 3; ++i) across += gram(1, 1) / gram(i, i) * energy->rows.row(i).tail(6).squaredNorm();
+  CHECK(automatic_smoothness(*energy) == doctest::Approx(3e-4 * across).epsilon(1e-9));
+}

@@ -87,3 +87,26 @@ TEST_CASE("an empty domain has no spheres, from an octree or spread") {
   CHECK(sphere_tree(VoxelDomain(grid, {}), {}, {}).empty());
   CHECK(spread_spheres(VoxelDomain(grid, {}), 5).empty());
 }
+
+TEST_CASE(
+    "a level of the octree is taken as it is: one sphere at first, more at every level, the finest where there is none deeper") {
+  const Grid grid = *make_grid({0, 0, 0}, {10, 2, 2}, 40);
+  const auto depth = [](const Vector3& p) { return box_depth(p, {0, 0, 0}, {10, 2, 2}); };
+  const VoxelDomain domain = domain_where(grid, [&](const Vector3& p) { return depth(p) > 0; });
+  const std::vector<double> surface_distance = depths(domain, depth);
+  SpherePackingOptions options;
+  options.max_spheres = 2000;
+  std::size_t last = 0;
+  for (int level = 1; level <= 6; ++level) {
+    const auto spheres = sphere_tree(domain, surface_distance, options, level);
+    CAPTURE(level);
+    if (level == 1) CHECK(spheres.size() == 1);
+    CHECK(spheres.size() >= last);
+    if (level == 4) CHECK(spheres.size() > 4);
+    last = spheres.size();
+  }
+  CHECK(sphere_tree(domain, surface_distance, options, 9).size() == last);
+  options.max_spheres = 3;
+  const auto few = sphere_tree(domain, surface_distance, options, 6);
+  CHECK(few.size() == 3);
+}

@@ -1,6 +1,6 @@
 // hb_bake_*: surfaces, clouds and volumes, stepped to the end or given up on the way. What comes out is taken by hb_irbf_create.
 //
-// behind: abi/bake.cpp core/irbf/bake.cpp core/irbf/body.cpp core/irbf/counted_mesh.cpp core/irbf/interior_voxels.cpp core/irbf/center_sampling.cpp core/irbf/sphere_packing.cpp core/irbf/sphere_tree.cpp
+// behind: abi/bake.cpp core/irbf/bake.cpp core/irbf/body.cpp core/irbf/counted_mesh.cpp core/irbf/interior_voxels.cpp core/irbf/center_sampling.cpp core/irbf/bones.cpp core/irbf/sphere_packing.cpp core/irbf/sphere_tree.cpp
 // behind: core/distance/fast_marching.cpp core/distance/filled_shell.cpp core/distance/heat_distance.cpp core/distance/interior_distance.cpp core/distance/interior_samples.cpp core/distance/mean_value_distance.cpp core/distance/merged_limbs.cpp core/distance/stencil.cpp core/distance/surface_crossings.cpp core/distance/voxel_domain.cpp
 // behind: core/mesh/consistent_orientation.cpp core/mesh/enclosed_volume.cpp core/mesh/mean_value_coordinates.cpp core/mesh/sound_surface.cpp core/mesh/surface_geodesics.cpp core/mesh/triangle_sides.cpp core/mesh/triangle_tree.cpp core/mesh/weld.cpp
 #include "meshes.hpp"
@@ -13,7 +13,7 @@ namespace {
 struct Given {
   hb_bake_options options{};
   std::vector<std::uint32_t> voxels;
-  std::vector<double> density;
+  std::vector<double> density, bones;
   std::vector<std::uint8_t> used;
 };
 
@@ -29,6 +29,19 @@ void choose(Bytes& bytes, const Mesh& mesh, Given& given) {
   if (bytes.byte() < 30) options.max_spheres = 0;
   if (bytes.byte() < 30) options.center_count = 0;
   options.cloud = bytes.byte() < 30;
+  options.straight_bones = bytes.byte() < 60;
+  if (bytes.byte() < 30) options.tree_level = bytes.option(1, 10);
+  if (bytes.byte() < 30) options.overlap = bytes.number();
+  if (bytes.byte() < 30) options.smallest_radius = bytes.flip() ? bytes.positive() / 64 : bytes.number();
+  if (bytes.byte() < 30) {
+    options.bone_count = bytes.from_to(1, 3);
+    for (std::uint32_t i = 0; i < 6 * options.bone_count; ++i) {
+      const std::size_t corner = bytes.below(mesh.vertex_count());
+      given.bones.push_back(bytes.wildly() ? bytes.number() : mesh.positions[3 * corner + i % 3] / 2);
+    }
+    options.bone_count = bytes.count(options.bone_count);
+    options.bones = given.bones.data();
+  }
   if (bytes.byte() < 30) {
     for (std::uint32_t& side : options.dims) side = bytes.count(bytes.from_to(1, 5));
     for (double& x : options.origin) x = bytes.number();
@@ -112,7 +125,7 @@ FUZZ(bytes) {
           "a body has all its parts");
   require(hb_bake_skeleton(bake.get(), &skeleton) == HB_OK, "a finished bake has a skeleton, or an empty one");
   check(skeleton, body.sphere_count);
-  const hb_irbf_options options{0, 1e-6, 100, 1, 0.45, 1, 5, 0, 2, 0, bytes.below(2), 0};
+  const hb_irbf_options options{0, 1e-6, 100, 1, 0.45, 1, 5, 0, 2, 0, bytes.below(2), 0, 0};
   Owned<hb_irbf_free> irbf;
   require(irbf.make([&](hb_irbf** out) { return hb_irbf_create(&body, &options, out); }), "IRBF takes every body that was baked");
 }

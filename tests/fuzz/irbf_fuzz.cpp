@@ -1,6 +1,6 @@
 // hb_irbf_*: bodies as baked, made here without baking, sound or hostile; handles, solving, frames, points and measures.
 //
-// behind: abi/irbf.cpp core/irbf/basis.cpp core/irbf/body.cpp core/irbf/frame_kernel.cpp core/irbf/handle_constraints.cpp core/irbf/irbf.cpp core/irbf/local_global.cpp core/irbf/prepared_body.cpp core/irbf/quality.cpp core/irbf/reduced_system.cpp core/irbf/rotation_hessian.cpp core/irbf/sphere_energy.cpp
+// behind: abi/irbf.cpp core/irbf/basis.cpp core/irbf/body.cpp core/irbf/frame_kernel.cpp core/irbf/handle_constraints.cpp core/irbf/irbf.cpp core/irbf/local_global.cpp core/irbf/prepared_body.cpp core/irbf/quality.cpp core/irbf/reduced_system.cpp core/irbf/rotation_hessian.cpp core/irbf/sphere_energy.cpp core/irbf/sphere_structure.cpp
 // behind: core/numerics/anderson.cpp core/numerics/closest_rotation.cpp core/mesh/vertex_normals.cpp core/kernels/kernel.cpp
 #include "meshes.hpp"
 #include "target.hpp"
@@ -14,7 +14,7 @@ struct MadeBody {
   Mesh mesh;
   std::vector<std::uint32_t> voxels, centers;
   std::vector<std::uint16_t> distances;
-  std::vector<double> spheres;
+  std::vector<double> spheres, axes;
   hb_body body{};
 };
 
@@ -62,6 +62,8 @@ void fill(Bytes& bytes, MadeBody& made) {
   for (std::uint32_t spheres = bytes.from_to(1, bytes.byte() < 240 ? 3 : 12); spheres > 0; --spheres) {
     for (int axis = 0; axis < 3; ++axis) made.spheres.push_back(bytes.number() / 16);
     made.spheres.push_back(bytes.positive() / 32);
+    const double half = bytes.byte() < 40 ? made.spheres.back() * (1 + bytes.positive()) : 0;
+    made.axes.insert(made.axes.end(), {half, bytes.wildly() ? bytes.number() : 0, 0});
   }
 }
 
@@ -95,11 +97,12 @@ void make_body(Bytes& bytes, MadeBody& made) {
   body.sphere_count = static_cast<std::uint32_t>(made.spheres.size() / 4);
   body.positions = made.mesh.positions.data(), body.triangles = made.mesh.simplices.data(), body.voxels = made.voxels.data();
   body.centers = made.centers.data(), body.distances = made.distances.data(), body.spheres = made.spheres.data();
+  if (bytes.flip()) body.sphere_axes = made.axes.data();
   falsify(bytes, body);
 }
 
 hb_irbf_options choose(Bytes& bytes) {
-  hb_irbf_options options{2, 0, 100, -1, 0, 1, 5, 0, 2, 0, 0, 0};
+  hb_irbf_options options{2, 0, 100, -1, 0, 1, 5, 0, 2, 0, 0, 0, 0};
   if (bytes.flip()) options.relative_width = bytes.flip() ? 0 : bytes.positive();
   if (bytes.flip()) options.poisson_ratio = bytes.byte() < 240 ? 0.45 : bytes.number();
   if (bytes.flip()) options.smoothness = bytes.positive() * (bytes.flip() ? 1e-6 : 1);
@@ -111,6 +114,7 @@ hb_irbf_options choose(Bytes& bytes) {
   options.constraints = bytes.option(0, 1);
   options.precision = bytes.option(0, 1);
   options.sphere_fit = bytes.byte() < 60 ? bytes.option(0, 1) : 0;
+  options.structure = bytes.byte() < 60 ? bytes.option(0, 1) : 0;
   return options;
 }
 

@@ -14,7 +14,7 @@ using handlebody::ConstPoints;
 struct hb_bake {
   explicit hb_bake(std::unique_ptr<Bake> begun) : bake(std::move(begun)) {}
   std::unique_ptr<Bake> bake;
-  std::vector<double> spheres, nodes;
+  std::vector<double> spheres, axes, nodes;
   std::vector<uint32_t> steps, lengths;
   std::vector<int32_t> parents;
 };
@@ -49,7 +49,8 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
   if (const int32_t status = hb_mesh_check_size(vertex_count, triangle_count)) return status;
   if (const int32_t status = handlebody::check_arrays({{positions, "positions", vertex_count, 3},
                                                        {triangles, "triangles", triangle_count, 3},
-                                                       {given->voxels, "voxels", given->voxel_count}}))
+                                                       {given->voxels, "voxels", given->voxel_count},
+                                                       {given->bones, "bones", given->bone_count, 6}}))
     return status;
   handlebody::BakeOptions options;
   options.centers = handlebody::signed_count(given->center_count);
@@ -59,6 +60,14 @@ int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint
   options.packing = static_cast<handlebody::SpherePacking>(given->packing);
   options.quality = static_cast<handlebody::BakeQuality>(given->quality);
   options.cloud = given->cloud != 0;
+  options.tree_level = handlebody::signed_count(given->tree_level);
+  options.straight_bones = given->straight_bones != 0;
+  options.overlap = given->overlap;
+  options.smallest_radius = given->smallest_radius;
+  for (uint32_t b = 0; b < std::min(given->bone_count, 2001u); ++b) {  // more are refused
+    const Eigen::Map<const handlebody::Vector3> from(given->bones + 6 * b), to(given->bones + 6 * b + 3);
+    options.bones.push_back({from, to});
+  }
   if (given->density != nullptr) options.density.assign(given->density, given->density + vertex_count);
   if (given->used != nullptr) options.used.assign(given->used, given->used + vertex_count);
   if (given->voxel_count > 0) {
@@ -90,9 +99,12 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   handlebody::changing(bake);
   if (!bake->bake->finished()) return unfinished();
   const handlebody::Body& body = bake->bake->body();
-  bake->spheres.clear();
+  bake->spheres.clear(), bake->axes.clear();
+  bool long_ones = false;
   for (const auto& sphere : body.spheres) {
     bake->spheres.insert(bake->spheres.end(), {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
+    bake->axes.insert(bake->axes.end(), sphere.axis.begin(), sphere.axis.end());
+    long_ones = long_ones || !sphere.axis.isZero(0);
   }
   const handlebody::Grid& grid = body.domain.grid();
   for (int axis = 0; axis < 3; ++axis) {
@@ -115,6 +127,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   out->centers = body.centers.data();
   out->distances = body.distances.data();
   out->spheres = bake->spheres.data();
+  out->sphere_axes = long_ones ? bake->axes.data() : nullptr;
   return HB_OK;
 }
 

@@ -83,6 +83,7 @@ typedef struct hb_body {
   const uint32_t* centers;    /* vertex numbers of the IRBF centers */
   const uint16_t* distances;  /* center_count × voxel_count codes */
   const double* spheres;      /* sphere_count × 4: center, radius */
+  const double* sphere_axes;  /* sphere_count × 3: half the long axis of one that is an ellipsoid, 0 for others; NULL where there are none */
 } hb_body;
 
 typedef struct hb_bake hb_bake;
@@ -95,12 +96,18 @@ typedef struct hb_bake_options {
   uint32_t method;         /* interior distances: 0 fast marching, 1 Euclidean, for comparison, 2 heat, 3 mean value */
   uint32_t max_spheres;    /* 1 to 2000; 0 chooses it by the skeleton's branches */
   uint32_t packing;        /* spheres along a curve skeleton and beside it (0), from an octree (1), or greedily near the medial axis (2) */
+  uint32_t tree_level;     /* of the octree, 1 to 10; 0 for the deepest that has no more than max_spheres */
+  uint32_t straight_bones; /* 1: ellipsoids take the place of spheres where limbs are straight (§2.4) */
+  uint32_t bone_count;     /* ellipsoids from end to end of `bones` */
   uint32_t quality;        /* 0 draft, 1 normal, 2 fine: voxels to aim at, and how finely distances are rounded */
   uint32_t cloud;          /* 1: the positions are a dense sample of a surface or a solid, without triangles */
   uint32_t voxel_count;    /* not 0: so many `voxels` of the grid that follows, in model units, are the inside; the mesh is their surface */
   uint32_t dims[3];
   double origin[3];        /* center of voxel (0, 0, 0) */
   double spacing;
+  double overlap;          /* of two spheres, in parts of the smaller radius, -4 to 1; negative keeps them apart */
+  double smallest_radius;  /* of spheres, in parts of the diagonal, 0 to 1; 0 chooses it by the voxels. A limb or part keeps some in any case */
+  const double* bones;     /* bone_count × 6: two ends, model units, between which all is inside */
   const uint32_t* voxels;  /* linear indices i + nx·(j + ny·k), ascending */
   const double* density;   /* vertex_count relative densities of centers, 1e-6 to 1e6, 1 where nothing special is wanted */
   const uint8_t* used;     /* vertex_count: not 0 for the vertices that count, as those of a solid do; those that triangles use count anyway */
@@ -123,7 +130,8 @@ HB_WHOLE_API int32_t hb_mesh_check_size(double vertex_count, double triangle_cou
 HB_WHOLE_API int32_t hb_bake_begin(const double* positions, uint32_t vertex_count, const uint32_t* triangles, uint32_t triangle_count, const hb_bake_options* options, hb_bake** bake);
 
 /* One bounded step (some triangles, a slab of voxels or one center). `progress` grows from 0 to 1; the bake is done when it is 1. Fails
- * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED. */
+ * with MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED; with INVALID_OPTION where
+ * a bone is not inside. */
 HB_WHOLE_API int32_t hb_bake_step(hb_bake* bake, double* progress);
 
 /* The finished body, owned by the bake. */
@@ -169,6 +177,7 @@ typedef struct hb_irbf_options {
   uint32_t constraints;  /* 0 soft (appendix), 1 hard (§4.6) */
   uint32_t precision;    /* of hb_irbf_deform: 0 for 16-bit fixed point, 1 for float */
   uint32_t sphere_fit;   /* of eq. (8): 0 for each sphere's closest rigid map, 1 for its closest similarity (§4.5), which may grow */
+  uint32_t structure;    /* Fig. 7: 0 for six points a sphere, 1 for twelve about its center; an ellipsoid has 32 in any case */
 } hb_irbf_options;
 
 /* What the last hb_irbf_solve did. */

@@ -50,11 +50,13 @@ extern "C" {
 int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irbf** out) {
   handlebody::making();
   if (given->constraints > 1 || given->precision > 1 || given->sphere_fit > 1 ||
-      given->kernel > static_cast<uint32_t>(KernelKind::custom) || given->order < 2 || given->order > 8) {
-    return fail({HB_ERROR_INVALID_OPTION,
-                 {"The number of a kernel, its order, the constraints, the precision or the fit of spheres is unknown."},
-                 {"Use those that the header lists."},
-                 HB_CULPRIT_OPTION});
+      given->structure >= handlebody::sphere_structure_count || given->kernel > static_cast<uint32_t>(KernelKind::custom) ||
+      given->order < 2 || given->order > 8) {
+    return fail(
+        {HB_ERROR_INVALID_OPTION,
+         {"The number of a kernel, its order, the constraints, the precision, the fit or the structure of spheres is unknown."},
+         {"Use those that the header lists."},
+         HB_CULPRIT_OPTION});
   }
   if (auto checked = handlebody::check_mesh_size(from->vertex_count, from->triangle_count); !checked) return fail(checked.error());
   if (const int32_t status = check_arrays({{from->positions, "positions", from->vertex_count, 3},
@@ -63,6 +65,8 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
                                            {from->centers, "centers", from->center_count},
                                            {from->distances, "distances", from->center_count, from->voxel_count},
                                            {from->spheres, "spheres", from->sphere_count, 4}}))
+    return status;
+  if (const int32_t status = from->sphere_axes ? check_arrays({{from->sphere_axes, "sphere axes", from->sphere_count, 3}}) : HB_OK)
     return status;
   auto domain = read_domain(*from);
   if (!domain) return fail(domain.error());
@@ -78,6 +82,7 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   for (uint32_t s = 0; s < from->sphere_count; ++s) {
     const double* sphere = from->spheres + 4 * s;
     body.spheres.push_back({handlebody::Vector3(sphere[0], sphere[1], sphere[2]), sphere[3]});
+    if (from->sphere_axes) body.spheres.back().axis = Eigen::Map<const handlebody::Vector3>(from->sphere_axes + 3 * s);
   }
   handlebody::IrbfOptions options;
   options.kernel = handlebody::Kernel::of(static_cast<KernelKind>(given->kernel), given->relative_width, 3, given->order);
@@ -89,6 +94,7 @@ int32_t hb_irbf_create(const hb_body* from, const hb_irbf_options* given, hb_irb
   options.poisson_ratio = given->poisson_ratio;
   options.constraints = static_cast<handlebody::ConstraintKind>(given->constraints);
   options.precision = static_cast<handlebody::FramePrecision>(given->precision);
+  options.structure = static_cast<handlebody::SphereStructure>(given->structure);
   options.sphere_fit = static_cast<handlebody::SphereFit>(given->sphere_fit);
   auto irbf = Irbf::create(std::move(body), options);
   if (!irbf) return fail(irbf.error());

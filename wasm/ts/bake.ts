@@ -12,11 +12,9 @@ import type { BakeOptions, BakeShape, BodyData, DistanceMethod, Mesh, Skeleton }
 /** Computes interior distances (paper 001, §4.1), centers (§4.3) and spheres (§4.2). See `Handlebody.bake`. */
 export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOptions): Promise<BodyData> {
   // Read once: from the first pause on, shape and options may be others.
-  const { centers, distance, resolution, quality, spheres, packing, density, signal, onProgress, onWarning } = options(
-    given,
-    BAKE_READERS,
-    BAKE_DEFAULTS,
-  );
+  const read = options(given, BAKE_READERS, BAKE_DEFAULTS);
+  const { centers, distance, resolution, quality, spheres, packing, level, density, signal, onProgress, onWarning } = read;
+  const bones = typeof read.bones === 'string' ? [] : read.bones;
   throwIfAborted(signal);
   const numbers = {
     center_count: orZero(centers),
@@ -25,6 +23,9 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOpt
     method: METHODS.indexOf(distance),
     max_spheres: orZero(spheres),
     packing: PACKINGS.indexOf(packing),
+    tree_level: orZero(level),
+    straight_bones: read.bones === 'straight' ? 1 : 0,
+    bone_count: bones.length,
   };
   const { mesh, cloud, volume, used } = prepareShape(heap, shape);
   const vertexCount = mesh.positions.length / 3;
@@ -39,6 +40,11 @@ export async function bake(heap: Heap<Exports>, shape: BakeShape, given: BakeOpt
     for (const [name, value] of Object.entries(numbers)) put(layout[name as keyof typeof numbers], value);
     put(layout.cloud, cloud ? 1 : 0);
     if (density) put(layout.density, scratch.putF64(density));
+    heap.f64(at + layout.overlap, 2).set([read.overlap, orZero(read.smallestRadius)]);
+    if (bones.length > 0) {
+      const from = mesh.origin ?? [0, 0, 0];
+      put(layout.bones, scratch.putF64(bones.flatMap((bone) => Array.from(bone, (x, i) => x - (from[i % 3] as number)))));
+    }
     if (used) put(layout.used, scratch.putU8(used));
     if (volume) {
       put(layout.voxel_count, volume.voxels.length);
@@ -92,6 +98,7 @@ function readBody(heap: Heap<Exports>, bake: number, mesh: Mesh, distance: Dista
       distances: heap.u16(word(layout.distances), centers * voxels).slice(),
       distanceScale: double(layout.distance_scale),
       spheres: heap.f64(word(layout.spheres), spheres * 4).slice(),
+      ...(word(layout.sphere_axes) !== 0 && { sphereAxes: heap.f64(word(layout.sphere_axes), spheres * 3).slice() }),
       smoothLength: double(layout.smooth_length),
       ...(skeleton && { skeleton }),
     };

@@ -32,6 +32,7 @@ export function readBody(given: unknown): BodyData {
     distanceScale: bodyNumber(body.distanceScale, 'body.distanceScale'),
     smoothLength: bodyNumber(body.smoothLength ?? 0, 'body.smoothLength'),
     spheres: numbers(body.spheres, 'body.spheres', BODY) as Float64Array,
+    ...(body.sphereAxes && { sphereAxes: numbers(body.sphereAxes, 'body.sphereAxes', BODY) as Float64Array }),
   };
   checkBody(read);
   return read;
@@ -47,6 +48,12 @@ function checkBody(body: BodyData): void {
   if (body.distances.length !== expected || body.spheres.length % 4 !== 0) {
     throw new HandlebodyError('body-invalid', {
       message: `The baked body has ${body.distances.length} distances, but ${body.centers.length} centers × ${body.voxels.length} voxels need ${expected}.`,
+      remedy: BAKE_AGAIN,
+    });
+  }
+  if (body.sphereAxes && 4 * body.sphereAxes.length !== 3 * body.spheres.length) {
+    throw new HandlebodyError('body-invalid', {
+      message: `The baked body has ${body.sphereAxes.length} numbers for the axes of ${body.spheres.length / 4} spheres, which need three each.`,
       remedy: BAKE_AGAIN,
     });
   }
@@ -69,6 +76,7 @@ export function writeBody(heap: Heap, scratch: Scratch, body: BodyData): number 
     centers: scratch.putU32(body.centers),
     distances: scratch.putU16(body.distances),
     spheres: scratch.putF64(body.spheres),
+    ...(body.sphereAxes && { sphere_axes: scratch.putF64(body.sphereAxes) }),
   };
   heap.f64(at + layout.center, 3).set(body.normalization.center);
   heap.f64(at + layout.diagonal, 1)[0] = body.normalization.diagonal;

@@ -18,6 +18,7 @@ export const IRBF_DEFAULTS = {
   order: 2,
   precision: 'fixed',
   sphereFit: 'rigid',
+  structure: 'octahedron',
 } as const;
 
 const RADIAL = Object.keys(KERNELS).filter((name) => name !== 'clamped-plate') as IrbfKernel[];
@@ -34,6 +35,7 @@ const READERS = {
   order: whole(2, 8),
   precision: named(['fixed', 'float']),
   sphereFit: named(['rigid', 'similarity']),
+  structure: named(['octahedron', 'icosahedron']),
   onWarning: callback,
 } satisfies Readers<IrbfOptions>;
 
@@ -62,5 +64,6 @@ export function writeOptions(heap: Heap, scratch: Scratch, how: ResolvedIrbf, ho
   words[layout.constraints / 4] = how.constraints === 'hard' ? 1 : 0;
   words[layout.precision / 4] = how.precision === 'float' ? 1 : 0;
   words[layout.sphere_fit / 4] = how.sphereFit === 'similarity' ? 1 : 0;
+  words[layout.structure / 4] = how.structure === 'icosahedron' ? 1 : 0;
   return at;
 }

@@ -99,6 +99,8 @@ export interface BodyData {
   readonly distanceScale: number;
   /** spheres × 4: center xyz, radius. */
   readonly spheres: Float64Array;
+  /** spheres × 3: half the long axis of one that is an ellipsoid, a bone, which is `radius` thick about it; 0 for others. Left out without. */
+  readonly sphereAxes?: Float64Array;
   /**
    * Over which length one smooth function may deform the body, which `relativeWidth: 'auto'` makes its kernels as wide as: half of a limb
    * where limbs meet, all of a body where none do. 0 or left out where it is not known.
@@ -164,6 +166,17 @@ export interface BakeOptions {
    * from an octree, spread over the volume, more alike; or near the medial axis, larger first, wherever that is.
    */
   readonly packing?: 'skeleton' | 'tree' | 'medial';
+  /** Of the octree (`packing: 'tree'`), from 1, its whole, to 10; 'auto', the default, is the deepest that gives no more than `spheres`. */
+  readonly level?: number | 'auto';
+  /** How much two spheres may overlap, in parts of the smaller radius: -4 to 1, by default 0. A negative number keeps them apart. */
+  readonly overlap?: number;
+  /** Radius of the smallest spheres in diagonals. 'auto', the default, goes by the voxels. Limbs and parts keep some spheres in any case. */
+  readonly smallestRadius?: number | 'auto';
+  /**
+   * Ellipsoids in the place of spheres, which keep their whole length straight, as bones do (§2.4): 'straight' where the skeleton's branches
+   * are, or between pairs of ends inside the model, each as thick as there is room.
+   */
+  readonly bones?: 'none' | 'straight' | readonly (readonly [Vec3, Vec3])[];
   /** For each vertex the density of centers around it, relative to 1: higher where detail will be moved. */
   readonly density?: ArrayLike<number>;
   readonly signal?: AbortSignal;
@@ -227,6 +240,11 @@ export interface IrbfOptions {
   readonly precision?: 'fixed' | 'float';
   /** What spheres keep: 'rigid' their size and shape (eq. (8)), 'similarity' their shape only (§4.5), so that handles may scale the model. */
   readonly sphereFit?: 'rigid' | 'similarity';
+  /**
+   * The points by which a sphere feels how it is deformed (Fig. 7): the paper's six, 'octahedron', feel what is linear; twelve about the
+   * center, 'icosahedron', also what bends it, and so keep large spheres better in shape. Ellipsoids have 32 in any case.
+   */
+  readonly structure?: 'octahedron' | 'icosahedron';
   /** Called by `setHandles` where handles leave something free. By default it goes to the console. */
   readonly onWarning?: (warning: IrbfWarning) => void;
 }

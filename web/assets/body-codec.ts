@@ -27,6 +27,7 @@ export async function encodeBody(body: BodyData): Promise<{ arrays: StoredArrays
     voxels: toRuns(voxels),
     centers: Uint32Array.from(centers),
     spheres: Float32Array.from(body.spheres),
+    ...(body.sphereAxes && body.version > 1 && { sphereAxes: Float32Array.from(body.sphereAxes) }),
     ...(body.skeleton && body.version > 1 && storeSkeleton(body.skeleton)),
   };
   // From here on the body's arrays may change.
@@ -69,13 +70,14 @@ async function decode({ header: { arraysHash, reading: _, ...header }, arrays, m
   const { centers, order } = stored;
   const voxels = fromRuns(stored.voxels, countInRuns(stored.voxels, Number.POSITIVE_INFINITY));
   const { dimensions } = header.grid;
-  const { skeletonNodes } = stored;
+  const { skeletonNodes, sphereAxes } = stored;
   const body = {
     ...header,
     mesh: await mesh(),
     voxels,
     centers,
     spheres: Float64Array.from(stored.spheres),
+    ...(sphereAxes && header.version > 1 && { sphereAxes: Float64Array.from(sphereAxes) }),
     ...(skeletonNodes && header.version > 1 && { skeleton: readSkeleton(stored as StoredSkeleton) }),
   };
   checkBody(body);
@@ -98,11 +100,11 @@ async function decode({ header: { arraysHash, reading: _, ...header }, arrays, m
 }
 
 /** Of all that is stored, so that damage is found, and wrong numbers of codes, which the codec does not always tell. */
-function hashArrays({ voxels, centers, order, spheres, ...skeleton }: StoredArrays, lanes: Uint16Array): string {
+function hashArrays({ voxels, centers, order, spheres, sphereAxes, ...skeleton }: StoredArrays, lanes: Uint16Array): string {
   const words = (array: Float32Array | Uint16Array) => new Uint32Array(array.buffer, array.byteOffset, array.byteLength / 4);
   const { skeletonNodes, skeletonBranches, sphereBranches } = skeleton;
   const more = skeletonNodes && skeletonBranches && sphereBranches ? [words(skeletonNodes), skeletonBranches, sphereBranches] : [];
-  return hashWords([voxels, centers, order, words(lanes), words(spheres), ...more]);
+  return hashWords([voxels, centers, order, words(lanes), words(spheres), ...(sphereAxes ? [words(sphereAxes)] : []), ...more]);
 }
 
 /** The centers one after another, each the nearest to the one before that has not been: their fields then differ little. */

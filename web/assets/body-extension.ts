@@ -19,6 +19,7 @@ export interface IBodyProperty {
   order: Accessor;
   distances: Accessor;
   spheres: Accessor;
+  sphereAxes: Accessor;
   skeletonNodes: Accessor;
   skeletonBranches: Accessor;
   sphereBranches: Accessor;

@@ -187,6 +187,7 @@ export const FAULTS = {
     (there, spheres) => `says of ${there} spheres on which branch they lie, and has ${spheres}`,
   ),
   'skeleton-sphere': body('sphereBranches', (s, branch, branches) => `has sphere ${s} on branch ${branch} of ${branches}`),
+  'sphere-axes': body('sphereAxes', (spheres) => `has axes that are not three finite numbers for each of its ${spheres} spheres`),
   spheres: body('spheres', () => 'has spheres that are not four finite numbers each'),
   empty: body('centers', () => 'is empty'),
   most: body(

@@ -18,6 +18,7 @@
  *     "order": accessor,       unsigned int SCALAR: the center that the k-th stored row of distances is of
  *     "distances": accessor,   unsigned byte SCALAR: compressed, see `predict-distances.ts`
  *     "spheres": accessor,     float VEC4: center xyz, radius
+ *     "sphereAxes": accessor,  float VEC3, optional: half the long axis of one that is an ellipsoid, or 0
  *     "skeletonNodes": accessor, "skeletonBranches": accessor, "sphereBranches": accessor    optional: see `body-skeleton.ts`
  *   } }
  *
@@ -64,6 +65,7 @@ export interface StoredArrays {
   readonly order: Uint32Array;
   readonly distances: Uint8Array;
   readonly spheres: Float32Array;
+  readonly sphereAxes?: Float32Array;
   readonly skeletonNodes?: Float32Array;
   readonly skeletonBranches?: Uint32Array;
   readonly sphereBranches?: Uint32Array;
@@ -76,9 +78,10 @@ export const BODY_ACCESSORS = {
   order: { type: 'SCALAR', array: Uint32Array },
   distances: { type: 'SCALAR', array: Uint8Array },
   spheres: { type: 'VEC4', array: Float32Array },
-  skeletonNodes: { type: 'VEC4', array: Float32Array, optional: true },
-  skeletonBranches: { type: 'SCALAR', array: Uint32Array, optional: true },
-  sphereBranches: { type: 'SCALAR', array: Uint32Array, optional: true },
+  sphereAxes: { type: 'VEC3', array: Float32Array, optional: 'alone' },
+  skeletonNodes: { type: 'VEC4', array: Float32Array, optional: 'skeleton' },
+  skeletonBranches: { type: 'SCALAR', array: Uint32Array, optional: 'skeleton' },
+  sphereBranches: { type: 'SCALAR', array: Uint32Array, optional: 'skeleton' },
 } as const;
 
 /** Bodies of more voxels or codes (an eighth and a quarter of a gigabyte) are neither written nor read. */
@@ -165,7 +168,8 @@ export function checkStored(arrays: { readonly [name in keyof StoredArrays]?: un
   const skeleton = arrays.skeletonNodes !== undefined;
   for (const [name, { array, ...rest }] of Object.entries(BODY_ACCESSORS)) {
     const given = arrays[name as keyof StoredArrays];
-    if (given instanceof array || (given === undefined && 'optional' in rest && !skeleton)) continue;
+    const optional = 'optional' in rest && (rest.optional === 'alone' || !skeleton);
+    if (given instanceof array || (given === undefined && optional)) continue;
     throw new Fault('array', [name]);
   }
   const stored = arrays as StoredArrays;
@@ -217,6 +221,9 @@ export function checkBody(body: Omit<BodyData, 'distances'> & { readonly distanc
   if (spheres.length % 4 !== 0 || spheres.some((x, i) => !Number.isFinite(x) || (i % 4 === 3 && x < 0))) {
     throw new Fault('spheres');
   }
+  const { sphereAxes } = body;
+  if (sphereAxes && (4 * sphereAxes.length !== 3 * spheres.length || sphereAxes.some((x) => !Number.isFinite(x))))
+    throw new Fault('sphere-axes', [spheres.length / 4]);
   if (body.skeleton) checkSkeleton(body.skeleton, spheres.length / 4);
 }
 

@@ -86,6 +86,15 @@ export function count(values: Values, name: string): number | undefined {
   throw usageError(`--${name} is "${value}".`, 'Give a positive whole number.');
 }
 
+/** A number from a least to a greatest, or undefined where the option is not given. */
+export function numberBetween(values: Values, name: string, least: number, greatest: number): number | undefined {
+  const value = values[name];
+  if (value === undefined) return undefined;
+  const number = Number(value);
+  if (typeof value === 'string' && value.trim() !== '' && number >= least && number <= greatest) return number;
+  throw usageError(`--${name} is "${value}".`, `Give a number from ${least} to ${greatest}.`);
+}
+
 /** One of some words, or undefined where the option is not given. */
 export function oneOf<T extends string>(values: Values, name: string, known: readonly T[]): T | undefined {
   const value = values[name];

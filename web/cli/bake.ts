@@ -1,7 +1,7 @@
 import { load } from '../../wasm/ts/index.ts';
 import type { BodyData, DistanceMethod } from '../../wasm/ts/types.ts';
 import { attachBody, type BodyProperty, HANDLEBODY_BODY, readMesh } from '../assets/index.ts';
-import { count, type Options, oneOf, READS, theFile, theOutput, type Values, WRITES } from './arguments.ts';
+import { count, numberBetween, type Options, oneOf, READS, theFile, theOutput, type Values, WRITES } from './arguments.ts';
 import { prepareOutput, readInput, writeOutput } from './files.ts';
 import { modelBytes, readModel } from './model.ts';
 import { readBack } from './read-back.ts';
@@ -22,6 +22,10 @@ export const BAKE_OPTIONS: Options = {
   quality: { type: 'string' },
   spheres: { type: 'string' },
   packing: { type: 'string' },
+  level: { type: 'string' },
+  overlap: { type: 'string' },
+  'smallest-radius': { type: 'string' },
+  bones: { type: 'boolean' },
 };
 
 /** `handlebody bake`: a model with its interior distances in it. */
@@ -84,6 +88,10 @@ function bakeOptions(values: Values) {
     quality: oneOf(values, 'quality', QUALITIES),
     spheres: count(values, 'spheres'),
     packing: oneOf(values, 'packing', PACKINGS),
+    level: count(values, 'level'),
+    overlap: numberBetween(values, 'overlap', -4, 1),
+    smallestRadius: numberBetween(values, 'smallest-radius', 1e-6, 1),
+    bones: values.bones ? ('straight' as const) : undefined,
   };
   return Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined)) as {
     [K in keyof typeof entries]?: NonNullable<(typeof entries)[K]>;
@@ -91,7 +99,7 @@ function bakeOptions(values: Values) {
 }
 
 /** What a body is made of, in numbers. Lengths in the model's units. */
-export function describeBody({ centers, spheres, voxels, grid, normalization, distance, version, skeleton }: BodyData) {
+export function describeBody({ centers, spheres, sphereAxes, voxels, grid, normalization, distance, version, skeleton }: BodyData) {
   return {
     version,
     centers: centers.length,
@@ -100,5 +108,10 @@ export function describeBody({ centers, spheres, voxels, grid, normalization, di
     grid: { dimensions: grid.dimensions, spacing: grid.spacing * normalization.diagonal },
     distance,
     ...(skeleton && { branches: skeleton.lengths.length }),
+    ...(sphereAxes && {
+      bones: Array.from({ length: sphereAxes.length / 3 }, (_, s) => s).filter((s) => isLong(sphereAxes, s)).length,
+    }),
   };
 }
+
+const isLong = (axes: Float64Array, sphere: number) => axes.subarray(3 * sphere, 3 * sphere + 3).some((x) => x !== 0);

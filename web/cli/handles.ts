@@ -3,7 +3,7 @@
  *
  *   { "handles": [{ "vertex": 120 } or { "at": [x,y,z] }, with "to": [x,y,z], "rotation"?: [x,y,z,w], "scale"?: [x,y,z] }],
  *     "relativeWidth"?: number or "auto", "smoothness"?: number or "auto", "poissonRatio"?: number,
- *     "sphereFit"?: "rigid" or "similarity",
+ *     "sphereFit"?: "rigid" or "similarity", "structure"?: "octahedron" or "icosahedron",
  *     "shapes"?: { a sphere's number: [9 numbers, the rows of a linear map that it is to be stretched by] } }
  *
  * Every word of it is checked: one that is misspelt would otherwise be silently without effect.
@@ -22,12 +22,14 @@ interface HandlesFile {
     readonly smoothness?: number | 'auto';
     readonly poissonRatio?: number;
     readonly sphereFit?: 'rigid' | 'similarity';
+    readonly structure?: 'octahedron' | 'icosahedron';
   };
   /** Sphere and nine numbers, as `Irbf.shapes` takes them. */
   readonly shapes: readonly (readonly [number, readonly number[]])[];
 }
 
-const TOP = ['handles', 'relativeWidth', 'smoothness', 'poissonRatio', 'sphereFit', 'shapes'];
+const TOP = ['handles', 'relativeWidth', 'smoothness', 'poissonRatio', 'sphereFit', 'structure', 'shapes'];
+const WORDS = { sphereFit: ['rigid', 'similarity'], structure: ['octahedron', 'icosahedron'] };
 const KEYS = ['vertex', 'at', 'to', 'rotation', 'scale'];
 
 /** Throws 'file-invalid' for what is no JSON, 'handles-invalid', 'handle-*' or 'target-not-finite' naming the handle. */
@@ -47,19 +49,23 @@ export function parseHandles(
     targets.set(target, index * 10);
     return handle;
   });
-  const { relativeWidth, smoothness, poissonRatio, sphereFit } = file;
+  const { relativeWidth, smoothness, poissonRatio, sphereFit, structure } = file;
   for (const [name, value] of Object.entries({ relativeWidth, smoothness }))
     if (value !== undefined && value !== 'auto' && !(isNumber(value) && value > 0))
       throw invalid(`has the ${name} ${show(value)}, which should be a number above 0, or "auto".`);
   if (poissonRatio !== undefined && !(isNumber(poissonRatio) && poissonRatio >= 0 && poissonRatio <= 0.49))
     throw invalid(`has the poissonRatio ${show(poissonRatio)}, which should be a number from 0 to 0.49.`);
-  if (sphereFit !== undefined && sphereFit !== 'rigid' && sphereFit !== 'similarity')
-    throw invalid(`has the sphereFit ${show(sphereFit)}, which should be "rigid" or "similarity".`);
+  for (const [name, words] of Object.entries(WORDS)) {
+    const value = file[name];
+    if (value !== undefined && !words.includes(value as string))
+      throw invalid(`has the ${name} ${show(value)}, which should be "${words.join('" or "')}".`);
+  }
   const options = {
     ...(relativeWidth !== undefined && { relativeWidth }),
     ...(smoothness !== undefined && { smoothness }),
     ...(poissonRatio !== undefined && { poissonRatio }),
-    ...(sphereFit && { sphereFit }),
+    ...(sphereFit !== undefined && { sphereFit }),
+    ...(structure !== undefined && { structure }),
   };
   const shapes = parseShapes(file.shapes, sphereCount);
   return { handles, targets, options: options as HandlesFile['options'], shapes };

@@ -48,6 +48,10 @@ ${EXIT_CODES}`,
   --resolution N       voxels along the longest side, 8 to 512 (by default by the quality and by how much is inside)
   --spheres N          at most so many spheres (by default by how many branches the skeleton has)
   --packing PACKING    how spheres fill the volume: skeleton (the default), tree or medial
+  --level N            of the tree, 1 to 10 (by default the deepest that gives no more spheres than are allowed)
+  --overlap N          how much spheres may overlap, in parts of the smaller radius: -4 to 1, below 0 they keep apart (by default 0)
+  --smallest-radius N  of the spheres, as a part of the diagonal (by default by the voxels)
+  --bones              ellipsoids in the place of spheres where limbs are straight: they bend at their joints only
 ${READING}
 ${WRITING}
 ${COMMON}
@@ -71,13 +75,13 @@ HANDLES.json, in the model's own units after its nodes' transforms:
       { "vertex": 120, "to": [0.1, 0.6, 0] },
       { "at": [0, 0.5, 0], "to": [0, 0.5, 0], "rotation": [0, 0, 0.383, 0.924], "scale": [1, 1, 1] }
     ],
-    "relativeWidth": "auto", "smoothness": "auto", "poissonRatio": 0.4, "sphereFit": "rigid",
+    "relativeWidth": "auto", "smoothness": "auto", "poissonRatio": 0.4, "sphereFit": "rigid", "structure": "octahedron",
     "shapes": { "7": [1.5, 0, 0, 0, 1, 0, 0, 0, 1] } }
 
 A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ, PLY and OFF, in the order of the
 file; in STL, in the order in which places come first) or at any point inside, and goes to "to". "rotation" (a quaternion x, y, z, w) and
 "scale" are kept free where neither is given. "shapes" gives spheres another shape: the rows of a linear map of the sphere at rest.
-With "sphereFit": "similarity" spheres may grow. The output is no longer the shape that was baked, and carries no interior distances. A
+With "sphereFit": "similarity" spheres may grow; with "structure": "icosahedron" they feel bends, too. The output is no longer the shape that was baked, and carries no interior distances. A
 skinned model's rest shape is deformed, before skinning.
 
 ${EXIT_CODES}`,

@@ -131,7 +131,7 @@ function table(facts: Facts): string[] {
     rows.push(
       ['  for this shape', 'yes'],
       ['  centers', body.centers],
-      ['  spheres', body.branches === undefined ? body.spheres : `${body.spheres}, skeleton of ${body.branches} branches`],
+      ['  spheres', spheresInWords(body)],
       ['  voxels', `${body.voxels} of ${body.grid.dimensions.join(' × ')}, ${short(body.grid.spacing)} apart`],
       [
         '  distances',
@@ -161,3 +161,8 @@ function named(names: readonly string[]): string | undefined {
 const short = (x: number) => `${Number(x.toPrecision(4))}`;
 
 const megabytes = (bytes: number) => (bytes < 1e5 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(2)} MB`);
+
+function spheresInWords({ spheres, bones, branches }: { spheres: number; bones?: number; branches?: number }): string {
+  const long = bones ? `, ${bones} of them bones` : '';
+  return `${spheres}${long}${branches === undefined ? '' : `, skeleton of ${branches} branches`}`;
+}

@@ -176,8 +176,10 @@ const COMPONENT_TYPES = new Map<unknown, number>([
   [Float32Array, 5126],
 ]);
 
+const WIDTHS = { SCALAR: 1, VEC3: 3, VEC4: 4 } as const;
+
 /** Numbers side by side: GLTFExporter's own way pads every byte to four. */
-function writeAccessor(writer: Writer, array: Uint8Array | Uint32Array | Float32Array, type: 'SCALAR' | 'VEC4'): number {
+function writeAccessor(writer: Writer, array: Uint8Array | Uint32Array | Float32Array, type: keyof typeof WIDTHS): number {
   const { json } = writer;
   const padded = new Uint8Array(Math.ceil(array.byteLength / 4) * 4);
   padded.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
@@ -186,6 +188,6 @@ function writeAccessor(writer: Writer, array: Uint8Array | Uint32Array | Float32
   const buffer = writer.processBuffer(padded.buffer);
   const view = json.bufferViews.push({ buffer, byteOffset: writer.byteOffset, byteLength: array.byteLength }) - 1;
   writer.byteOffset += padded.byteLength;
-  const count = array.length / (type === 'VEC4' ? 4 : 1);
+  const count = array.length / WIDTHS[type];
   return json.accessors.push({ bufferView: view, componentType: COMPONENT_TYPES.get(array.constructor), type, count }) - 1;
 }

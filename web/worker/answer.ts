@@ -75,8 +75,17 @@ export async function bakeAnswer(
   bake: (shape: BakeShape, options: BakeOptions) => Promise<BodyData>,
 ): Promise<Answered<BodyData>> {
   const body = await bake(shape, { ...options, ...listener });
-  const { mesh, voxels, centers, distances, spheres } = body;
-  const arrays = [mesh.positions, mesh.triangles, voxels, centers, distances, spheres];
+  const { mesh, voxels, centers, distances, spheres, sphereAxes, skeleton } = body;
+  const arrays = [
+    mesh.positions,
+    mesh.triangles,
+    voxels,
+    centers,
+    distances,
+    spheres,
+    sphereAxes,
+    ...Object.values(skeleton ?? {}),
+  ];
   return { answer: body, transfer: arrays.filter((array) => ArrayBuffer.isView(array)) };
 }
 

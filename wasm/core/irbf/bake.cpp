@@ -33,6 +33,10 @@ constexpr Index centers_of_sphere = 4;
 constexpr std::array<double, bake_quality_count> most_codes{4095, 8191, 65535};
 /** Radius of the smallest spheres, in spacings: along the skeleton, and beside it. */
 constexpr double least_on_skeleton = 0.75, least_beside = 1.5;
+/** Half the length of an ellipsoid that is found, in its radii. */
+constexpr double least_bone = 2;
+constexpr int most_spheres = 2000;
+constexpr int most_tree_level = 10;  // 512 voxels halved as often
 
 Error invalid_option(const char* name, Index value, Index low, Index high) {
   return {HB_ERROR_INVALID_OPTION,
@@ -46,8 +50,27 @@ Result<Done> check_options(const BakeOptions& options, Index vertices) {
   if (options.resolution != 0 && (options.resolution < 8 || options.resolution > Bake::highest_resolution)) {
     return invalid_option("resolution", options.resolution, 8, Bake::highest_resolution);
   }
-  if (options.max_spheres < 0 || options.max_spheres > 2000) {
-    return invalid_option("number of spheres", options.max_spheres, 1, 2000);
+  if (options.max_spheres < 0 || options.max_spheres > most_spheres) {
+    return invalid_option("number of spheres", options.max_spheres, 1, most_spheres);
+  }
+  if (!(options.overlap >= -4 && options.overlap <= 1)) {
+    return Error(HB_ERROR_INVALID_OPTION, {"The bake's overlap of spheres is ", options.overlap, "."},
+                 {"Use a number from -4 to 1, such as 0."}, HB_CULPRIT_OPTION);
+  }
+  if (!(options.smallest_radius >= 0 && options.smallest_radius <= 1)) {
+    return Error(HB_ERROR_INVALID_OPTION, {"The bake's smallest radius is ", options.smallest_radius, "."},
+                 {"Use a part of the diagonal from 0 to 1, such as 0.01, or have it chosen."}, HB_CULPRIT_OPTION);
+  }
+  if (options.tree_level < 0 || options.tree_level > most_tree_level)
+    return invalid_option("octree level", options.tree_level, 1, most_tree_level);
+  if (std::ssize(options.bones) > most_spheres) {
+    return Error(HB_ERROR_INVALID_OPTION, {"There are ", options.bones.size(), " bones; a body takes up to 2000."},
+                 {"Give fewer bones."}, HB_CULPRIT_OPTION);
+  }
+  for (std::size_t k = 0; k < options.bones.size(); ++k) {
+    if (options.bones[k].from.allFinite() && options.bones[k].to.allFinite()) continue;
+    return Error(HB_ERROR_INVALID_OPTION, {"Bone ", k, " has a coordinate that is not a finite number."},
+                 {"Give x, y and z of both ends as ordinary numbers."}, HB_CULPRIT_OPTION);
   }
   if (!options.density.empty() && std::ssize(options.density) != vertices) {
     return Error(HB_ERROR_INVALID_SHAPE, {"There are ", options.density.size(), " densities for ", vertices, " vertices."},
@@ -159,7 +182,7 @@ Result<double> Bake::step() {
       measure_depth();
       break;
     case Phase::spheres:
-      pack();
+      if (auto done = pack(); !done) return done.error();
       break;
     case Phase::distance:
       if (auto done = measure(); !done) return done.error();
@@ -211,7 +234,7 @@ void Bake::measure_depth() {
   if (end == count) enter(Phase::spheres);
 }
 
-void Bake::pack() {
+Result<Done> Bake::pack() {
   const bool sheet = interior_->found().sheet();
   Index branches = 0;
   if (!sheet) {
@@ -219,6 +242,7 @@ void Bake::pack() {
     branches = std::ssize(body_.skeleton.branches);
     body_.smooth_length = smooth_length(body_.skeleton);
   }
+  if (options_.max_spheres == 0 && options_.tree_level > 0) options_.max_spheres = most_spheres;  // the level bounds them
   if (options_.max_spheres == 0)
     options_.max_spheres = static_cast<int>(std::min<Index>(spheres_of_any + spheres_of_branch * branches, most_automatic_spheres));
   most_centers_ = options_.centers;
@@ -230,29 +254,66 @@ void Bake::pack() {
 
   SpherePackingOptions packing;
   packing.max_spheres = options_.max_spheres;
+  packing.max_overlap = options_.overlap;
+  const double smallest = options_.smallest_radius / body_.domain.grid().spacing;
+  if (smallest > 0) packing.min_radius = smallest;
   if (sheet) {
     body_.spheres = spread_spheres(body_.domain, options_.max_spheres);
   } else if (options_.packing == SpherePacking::tree) {
-    body_.spheres = sphere_tree(body_.domain, depth_, packing);
+    body_.spheres = sphere_tree(body_.domain, depth_, packing, options_.tree_level);
   } else if (options_.packing == SpherePacking::medial) {
     body_.spheres = pack_spheres(body_.domain, depth_, packing);
   } else {
-    packing.min_radius = least_on_skeleton;
+    packing.min_radius = smallest > 0 ? smallest : least_on_skeleton;
     packing.medial_slope = 1;  // what is wide is filled
     SkeletonSphereOptions along;
     along.packing = packing;
-    along.fill_radius = least_beside;
+    along.fill_radius = smallest > 0 ? smallest : least_beside;
     for (const SkeletonSphere& sphere : skeleton_spheres(body_.domain, depth_, body_.skeleton, along)) {
       body_.spheres.push_back(sphere);
       body_.sphere_branches.push_back(sphere.branch);
     }
   }
   if (!sheet) body_.sphere_branches.resize(body_.spheres.size(), -1);
+  if (auto done = put_bones(); !done) return done.error();
   // A part whose only voxels lie on its surface still gets a sphere that has an extent.
   for (Sphere& sphere : body_.spheres) sphere.radius = std::max(sphere.radius, 0.05 * body_.domain.grid().spacing);
   interior_.reset();
   depth_ = {};
   enter(Phase::distance);
+  return Done{};
+}
+
+/** Ellipsoids, given and found, in the place of the spheres there. A sheet has no depth, and keeps its spheres. */
+Result<Done> Bake::put_bones() {
+  if (interior_->found().sheet()) return Done{};
+  const double shrink = SpherePackingOptions{}.shrink;
+  std::vector<Sphere> ellipsoids;
+  for (std::size_t k = 0; k < options_.bones.size(); ++k) {
+    const Bone bone{body_.normalization.to_solver(options_.bones[k].from), body_.normalization.to_solver(options_.bones[k].to)};
+    const auto ellipsoid = bone_ellipsoid(body_.domain, depth_, bone, shrink);
+    if (!ellipsoid) {
+      return Error(HB_ERROR_INVALID_OPTION, {"Bone ", k, " leaves the model, or has no length."},
+                   {"Give it two ends between which all is inside, such as two places on the curve skeleton."}, HB_CULPRIT_OPTION);
+    }
+    ellipsoids.push_back(*ellipsoid);
+  }
+  if (options_.straight_bones) {
+    for (const Bone& bone : straight_bones(body_.skeleton)) {
+      const auto ellipsoid = bone_ellipsoid(body_.domain, depth_, bone, shrink);
+      // What is hardly longer than thick is better filled by spheres.
+      if (ellipsoid && ellipsoid->axis.norm() >= least_bone * ellipsoid->radius) ellipsoids.push_back(*ellipsoid);
+    }
+  }
+  if (ellipsoids.empty()) return Done{};
+  add_bones(ellipsoids, body_.skeleton, body_.spheres, body_.sphere_branches);
+  // Bones bend at their joints: one smooth function is half as long as they are, as it is half as long as a limb elsewhere.
+  double halves = 0, bones = 0;
+  for (const Sphere& sphere : body_.spheres) {
+    if (!sphere.axis.isZero(0)) halves += sphere.axis.norm(), ++bones;
+  }
+  body_.smooth_length = std::min(body_.smooth_length, halves / bones);
+  return Done{};
 }
 
 Result<Done> Bake::measure() {

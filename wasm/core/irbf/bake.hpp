@@ -9,6 +9,7 @@
 #include "core/distance/interior_distance.hpp"
 #include "core/irbf/bake_warning.hpp"
 #include "core/irbf/body.hpp"
+#include "core/irbf/bones.hpp"
 #include "core/irbf/center_sampling.hpp"
 #include "core/irbf/counted_mesh.hpp"
 #include "core/irbf/interior_search.hpp"
@@ -26,6 +27,11 @@ struct BakeOptions {
   DistanceMethod method = DistanceMethod::fast_marching;
   int max_spheres = 0;  // 0: chosen
   SpherePacking packing = SpherePacking::skeleton;
+  double overlap = 0;              // of two spheres, in parts of the smaller radius
+  double smallest_radius = 0;      // of spheres, in diagonals; 0: chosen by the voxels
+  int tree_level = 0;              // of the octree, from 1, its whole; 0: the deepest whose spheres are no more than allowed
+  bool straight_bones = false;     // ellipsoids where limbs are straight
+  std::vector<Bone> bones;         // ellipsoids between these places, model units
   std::vector<double> density;     // of centers, relative to 1, one per vertex; empty for 1 throughout
   std::vector<std::uint8_t> used;  // one per vertex, not 0 for those of a solid: empty for those that triangles use
   bool cloud = false;              // no triangles: the positions are a dense sample of a surface or solid
@@ -44,8 +50,8 @@ class Bake {
   ~Bake();
 
   /** A bounded piece of work: some triangles, a slab of voxels, a center. Returns the part done, 1 when finished. Fails with
-   *  MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY or, with mean value distances, MESH_OPEN or MESH_NOT_CONNECTED; the bake is
-   * over then. */
+   *  MESH_NO_INTERIOR, CLOUD_TOO_SPARSE, OUT_OF_MEMORY, INVALID_OPTION (a bone that is not inside) or, with mean value distances,
+   * MESH_OPEN or MESH_NOT_CONNECTED; the bake is over then. */
   Result<double> step();
 
   bool finished() const { return phase_ == Phase::finished; }
@@ -61,7 +67,8 @@ class Bake {
   void enter(Phase phase);
   void take_interior();
   void measure_depth();
-  void pack();
+  Result<Done> pack();
+  Result<Done> put_bones();
   void begin_sampling();
   void take_centers();
   Result<Done> measure();

@@ -11,6 +11,7 @@ namespace {
 constexpr Index most_vertices = 4'000'000;
 constexpr Index most_triangles = 8'000'000;
 constexpr double most_smooth_length = 1e3;  // diagonals: kernels as wide tell places no longer apart
+constexpr double most_stretch = 1e6;        // half the long axis of an ellipsoid, in radii
 constexpr Index fewest_vertices = 4;        // the corners of the smallest volume
 
 Error invalid_body(std::initializer_list<Word> message) {
@@ -101,8 +102,11 @@ Result<Done> check_body(const Body& body) {
     return invalid_body({"The baked body's smooth length is not a number from 0 to ", most_smooth_length, "."});
   for (std::size_t s = 0; s < body.spheres.size(); ++s) {
     const Sphere& sphere = body.spheres[s];
-    if (sphere.center.allFinite() && std::isfinite(sphere.radius) && sphere.radius > 0) continue;
-    return invalid_body({"Sphere ", s, " of the baked body has no finite center and positive radius."});
+    if (!(sphere.center.allFinite() && std::isfinite(sphere.radius) && sphere.radius > 0))
+      return invalid_body({"Sphere ", s, " of the baked body has no finite center and positive radius."});
+    const double half = sphere.axis.norm();
+    if (half == 0 || (half >= sphere.radius && half < most_stretch * sphere.radius)) continue;
+    return invalid_body({"Sphere ", s, " of the baked body has an axis that is not from 1 to ", most_stretch, " radii long."});
   }
   return Done{};
 }

@@ -8,18 +8,12 @@
 #include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
+#include "core/irbf/sphere_structure.hpp"
 #include "core/mesh/triangle_tree.hpp"
 
 namespace handlebody {
 
 enum class HandleKind : unsigned { position = 0, rotation = 1 };
-
-/** Points of the minimal structure of a sphere (Fig. 7a): the ends of three perpendicular edges, −x +x −y +y −z +z. */
-inline Vector3 structure_point(const Vector3& center, double radius, Index i) {
-  Vector3 point = center;
-  point(i / 2) += i % 2 == 0 ? -radius : radius;
-  return point;
-}
 
 class HandleConstraints {
  public:

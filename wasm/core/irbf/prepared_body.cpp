@@ -48,7 +48,10 @@ Result<std::shared_ptr<const PreparedBody>> PreparedBody::create(Body body, cons
   const auto centers = static_cast<double>(body.centers.size());
   const auto spheres = static_cast<double>(body.spheres.size());
   // The float matrix while the 16-bit one is made from it, the matrices of the unknowns, the hat matrix.
-  const double bytes = 6 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + 9 * spheres) +
+  double rows = 0;  // of points and edges, while matrices are made
+  for (const Sphere& sphere : body.spheres)
+    rows += !sphere.axis.isZero(0) ? 68 : options.structure == SphereStructure::octahedron ? 9 : 28;
+  const double bytes = 6 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + rows) +
                        8 * 9 * spheres * spheres;
   if (bytes > most_bytes) {
     return Error(HB_ERROR_OUT_OF_MEMORY,
@@ -64,12 +67,13 @@ Result<std::shared_ptr<const PreparedBody>> PreparedBody::create(Body body, cons
 
 Result<Done> PreparedBody::prepare_spheres() {
   const Index centers = basis.size();
-  auto energy = make_sphere_energy(body, basis, options.edge_exponent);
+  auto energy = make_sphere_energy(body, basis, options.edge_exponent, options.structure);
   if (!energy) return energy.error();
   smoothness = options.smoothness > 0 ? options.smoothness : automatic_smoothness(*energy);
   edge_rows = std::move(energy->rows);
   gram = MatrixXd::Zero(4 + centers, 4 + centers);
   gram.selfadjointView<Eigen::Lower>().rankUpdate(edge_rows.transpose());
+  if (energy->beside.rows() > 0) gram.selfadjointView<Eigen::Lower>().rankUpdate(energy->beside.transpose());
   gram.diagonal().tail(centers).array() += smoothness;
   const Vector lengths = energy->edges.rowwise().norm().cwiseProduct(energy->edge_scale);
   anchor_weight = options.anchor_weight * std::sqrt(lengths.cwiseQuotient(energy->edge_scale.cwiseAbs2()).mean());

@@ -11,6 +11,7 @@
 #include "core/irbf/quality.hpp"
 #include "core/irbf/reduced_system.hpp"
 #include "core/irbf/rotation_hessian.hpp"
+#include "core/irbf/sphere_structure.hpp"
 #include "core/mesh/triangle_tree.hpp"
 #include "core/mesh/weld.hpp"
 
@@ -25,7 +26,8 @@ struct IrbfOptions {
   ConstraintKind constraints = ConstraintKind::soft;
   FramePrecision precision = FramePrecision::fixed;
   SphereFit sphere_fit = SphereFit::rigid;
-  double poisson_ratio = 0.4;  // below 0.5, at which nothing changes volume; 0 is paper 001's energy
+  SphereStructure structure = SphereStructure::octahedron;  // of spheres
+  double poisson_ratio = 0.4;                               // below 0.5, at which nothing changes volume; 0 is paper 001's energy
 
   /** κ of local_global.hpp: λ/2μ of fixed corotated elasticity. */
   double volume() const { return poisson_ratio / (1 - 2 * poisson_ratio); }
@@ -48,7 +50,7 @@ struct PreparedBody {
   double structure_radius = 0;  // of a rotation handle's six points
 
   MatrixXd edge_rows;  // 3B × (4 + C): √w [e 0 Δφ]
-  MatrixXd gram;       // lower triangle: edge_rowsᵀ edge_rows + λ on the coefficients
+  MatrixXd gram;       // lower triangle: edge_rowsᵀ edge_rows + λ on the coefficients, and what denser structures add
   Points edges;        // of the spheres at rest, weighted by √w (3B × 3)
   Vector edge_scale;   // 1/√w
 

@@ -4,18 +4,28 @@
 #include "core/errors/result.hpp"
 #include "core/irbf/basis.hpp"
 #include "core/irbf/body.hpp"
+#include "core/irbf/sphere_structure.hpp"
 
 namespace handlebody {
 
-/** Three perpendicular edges per sphere. Eq. (8) squares a residual weighted by w = ‖e‖^α, so every row carries √w. */
+/** Three perpendicular edges per sphere. Eq. (8) squares a residual weighted by w = ‖e‖^α, so every row carries √w.
+ *
+ *  A structure of more edges E (n×3, weighted) has as much to say of a sphere's map M as three do: with E = Q R, Q of three
+ * orthogonal columns, ‖E Mᵀ − E′‖² = ‖R Mᵀ − Qᵀ E′‖² + ‖(I − Q Qᵀ) E′‖². So R and Qᵀ Z take the place of edges and rows, and what
+ * is beside them, a bend, say, wants to vanish whatever M is: an iteration takes no longer.
+ *
+ *  An ellipsoid's w is that of a sphere as thick, for each thickness of its length: it counts as the row of spheres in whose place
+ *  it stands. */
 struct SphereEnergy {
   Points edges;       // 3B×3: √w e
   Vector edge_scale;  // 3B: 1/√w
   MatrixXd rows;      // Z₁, 3B × (4 + C): √w [e 0 Δφ]
+  MatrixXd beside;    // (I − Q Qᵀ) √w [e 0 Δφ]: no rows for a sphere of six points
 };
 
 /** `exponent` is α. Fails as the basis does. */
-Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent);
+Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent,
+                                        SphereStructure structure = SphereStructure::octahedron);
 
 /** λ chosen from the data: 3e-4 Σ w‖Δφ‖², over all centers and the edges of all spheres. Coefficients of normalized kernels are
  * about as large as the function that they make up, however many centers do so: λ‖c‖² would grow with C, and Σ w‖Δφ‖² falls with

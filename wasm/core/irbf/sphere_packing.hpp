@@ -12,6 +12,7 @@ namespace handlebody {
 struct Sphere {
   Vector3 center;
   double radius;
+  Vector3 axis = Vector3::Zero();  // half the long axis of an ellipsoid that is `radius` thick about it; 0 for a sphere
 };
 
 struct SpherePackingOptions {

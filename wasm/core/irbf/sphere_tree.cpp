@@ -7,15 +7,16 @@
 namespace handlebody {
 
 std::vector<Sphere> sphere_tree(const VoxelDomain& domain, const std::vector<double>& surface_distance,
-                                const SpherePackingOptions& options) {
+                                const SpherePackingOptions& options, int level) {
   const Grid& grid = domain.grid();
   const auto count = static_cast<std::size_t>(domain.size());
   SpherePackingOptions all = options;
-  all.max_spheres = options.max_spheres + 1;  // one more tells that a level has too many
+  all.max_spheres = options.max_spheres + (level > 0 ? 0 : 1);  // one more tells that a level has too many
   std::vector<Sphere> spheres;
   int edge = 2;
   while (edge < std::max({grid.dims[0], grid.dims[1], grid.dims[2]})) edge *= 2;
-  for (; edge >= 2; edge /= 2) {
+  for (int at_level = 1; edge >= 2; edge /= 2, ++at_level) {
+    if (level > at_level && edge > 2) continue;
     std::array<std::int64_t, 3> cells{};
     for (int a = 0; a < 3; ++a) cells[a] = (grid.dims[a] + edge - 1) / edge;
     // The deepest voxel of each cell; of equals, to a millionth of a spacing, the first.
@@ -29,9 +30,10 @@ std::vector<Sphere> sphere_tree(const VoxelDomain& domain, const std::vector<dou
     for (const std::int32_t v : deepest) {
       if (v >= 0) candidates[v] = 1;
     }
-    auto level = pack_candidates(domain, surface_distance, all, candidates);
-    if (!spheres.empty() && level.size() > static_cast<std::size_t>(options.max_spheres)) break;
-    spheres.swap(level);
+    auto packed = pack_candidates(domain, surface_distance, all, candidates);
+    if (!spheres.empty() && packed.size() > static_cast<std::size_t>(options.max_spheres)) break;
+    spheres.swap(packed);
+    if (level > 0) break;
   }
   return spheres;
 }
