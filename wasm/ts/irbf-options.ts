@@ -13,7 +13,7 @@ export const IRBF_DEFAULTS = {
   constraints: 'soft',
   anchorWeight: 100,
   edgeExponent: 2,
-  poissonRatio: 0.4,
+  poissonRatio: 0.48,
   support: 4,
   order: 2,
   precision: 'fixed',

@@ -23,6 +23,8 @@ constexpr double least_square = 1e-200;
 constexpr double least_volume_square = 1e-90;
 /** Where not even this part of a plain step lowers the energy, nothing does. */
 constexpr double least_part = 1e-4;
+/** Iterations after which the Hessian is made again. */
+constexpr int renewed_after = 15;
 
 // Of 3×3 matrices, compiled once: inlined they are half of this file. A sphere's edges are the rows of one.
 
@@ -145,6 +147,8 @@ void LocalGlobal::start(double energy) {
   energy_ = energy;
   displaced_ = image_.topRows(edges_.rows());
   anderson_.forget();
+  age_ = 0;
+  newton_ = !hessian_.empty();
   plain_part_ = 1;
   stalled_ = false;
   accelerated_ = true;  // at rest or warm, the quasi-Newton step is the better first one, too
@@ -171,6 +175,21 @@ void LocalGlobal::plain_step(std::vector<Matrix3>& maps) const {
   }
 }
 
+/** For the maps at hand, whose right-hand side and image are up to date. */
+void LocalGlobal::renew_hessian() {
+  age_ = 0;
+  if (hessian_.empty()) return;
+  residual_ = right_hand_side_ - image_;
+  std::vector<Matrix3> turns(maps_.size());
+  for (Index b = 0; b < std::ssize(maps_); ++b) {
+    turns[b] = closest_rotation(maps_[b]);
+    mapped_.middleRows<3>(3 * b) = mapped_rows(three(shaped_, b), maps_[b]);
+  }
+  if (!hessian_.renew(mapped_, *hat_, residual_, turns)) return;
+  newton_ = true;
+  anderson_.forget();
+}
+
 void LocalGlobal::quasi_newton_step() {
   residual_ = right_hand_side_ - image_;
   if (volume_ == 0) {
@@ -191,13 +210,13 @@ void LocalGlobal::quasi_newton_step() {
   for (Index b = 0; b < std::ssize(maps_); ++b) trial_[b] = pressed(trial_[b], held_[b] + pressure_[b], b);
 }
 
-/** A step from maps_, whose right-hand side and image are up to date. Anderson acceleration combines mapped edges, from which
- * closest maps make a step again. */
+/** A step from maps_, whose right-hand side and image are up to date, quasi-Newton's until that raised the energy. Anderson
+ * acceleration combines mapped edges, from which closest maps make a step again. */
 void LocalGlobal::accelerated_step() {
-  if (hessian_.empty()) {
-    plain_step(trial_);
-  } else {
+  if (newton_) {
     quasi_newton_step();
+  } else {
+    plain_step(trial_);
   }
   for (Index b = 0; b < std::ssize(maps_); ++b) {
     const Matrix3 edges = three(shaped_, b);
@@ -218,6 +237,7 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     ++report.iterations;
     // The step is taken here and not at the end of the last iteration, since a frame may have only one.
     const bool accelerated = options.accelerate && accelerated_;
+    if (options.accelerate && ++age_ > renewed_after) renew_hessian();
     if (accelerated) {
       accelerated_step();
     } else {
@@ -227,6 +247,7 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     if ((accelerated || volume_ > 0) && !(energy <= energy_ + rounding * std::abs(energy_))) {
       // The step raised the energy: a plain one cannot, or where volume is resisted a short one.
       if (!accelerated) plain_part_ /= 4;
+      if (accelerated && newton_) newton_ = false, anderson_.forget();
       accelerated_ = false;
       this->energy(maps_);  // their right-hand side and image again
       stalled_ = report.converged = plain_part_ < least_part;

@@ -30,13 +30,28 @@ Matrix3 exponential(const Vector3& turn) {
 }  // namespace
 
 RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, SphereFit fit, double volume)
-    : freedoms_(fit == SphereFit::similarity ? 4 : 3) {
+    : freedoms_(fit == SphereFit::similarity ? 4 : 3), volume_(volume) {
   const Index spheres = edges.rows() / 3;
   if (spheres > most_spheres) return;
-  // A fourth number of each sphere comes after the turns of all.
-  const Index turns = 3 * spheres, all = freedoms_ == 4 || volume > 0 ? turns + spheres : turns;
-  MatrixXd hessian = MatrixXd::Zero(all, all);
+  turned_.assign(spheres, Matrix3::Identity());
   gradient_.resize(freedoms_ * spheres);
+  Columns3 rest(edges.rows(), 3);
+  rest = edges;
+  factor(rest, hat, nullptr);
+}
+
+bool RotationHessian::renew(const Columns3& mapped, const MatrixXd& hat, const Columns3& residual,
+                            const std::vector<Matrix3>& turns) {
+  if (freedoms_ != 3 || !(factor(mapped, hat, &residual) || factor(mapped, hat, nullptr))) return false;
+  turned_ = turns;
+  return true;
+}
+
+bool RotationHessian::factor(const Columns3& edges, const MatrixXd& hat, const Columns3* residual) {
+  const Index spheres = edges.rows() / 3;
+  // A fourth number of each sphere comes after the turns of all.
+  const Index turns = 3 * spheres, all = freedoms_ == 4 || volume_ > 0 ? turns + spheres : turns;
+  MatrixXd hessian = MatrixXd::Zero(all, all);
   for (Index b = 0; b < spheres; ++b) {
     for (Index a = b; a < spheres; ++a) {
       // Σ k JₑᵀJ_f, where a turn ω and a scale's logarithm (or a pressure) σ move an edge by Jₑ (ω, σ) = ω × e + σ e. Element by
@@ -56,23 +71,43 @@ RotationHessian::RotationHessian(const Points& edges, const MatrixXd& hat, Spher
             hessian(turns + a, 3 * b + axis) -= k * across[axis];
             if (a != b) hessian(turns + b, 3 * a + axis) += k * across[axis];
           }
-          hessian(turns + a, turns + b) += (volume > 0 ? (i == j ? 1 / (3 * volume) : 0) + hat(i, j) : k) * along;
+          hessian(turns + a, turns + b) += (volume_ > 0 ? (i == j ? 1 / (3 * volume_) : 0) + hat(i, j) : k) * along;
         }
       }
     }
   }
-  if (volume > 0) {
-    pressure_factor_.emplace(hessian.bottomRightCorner(spheres, spheres));
-    coupling_ = hessian.bottomLeftCorner(spheres, turns);
-    MatrixXd solved = coupling_;
-    if (pressure_factor_->succeeded()) pressure_factor_->solve_in_place(solved);
-    hessian = MatrixXd(hessian.topLeftCorner(turns, turns)) + transposed_product(coupling_, solved);
+  if (residual) {
+    // A turn's second derivative moves an edge by ω × (ω × e), against the residual.
+    for (Index i = 0; i < edges.rows(); ++i) {
+      const Vector3 e = edges.row(i), r = residual->row(i);
+      const double along = e.dot(r);
+      for (Index column = 0; column < 3; ++column)
+        for (Index row = 0; row < 3; ++row)
+          hessian(i / 3 * 3 + row, i / 3 * 3 + column) +=
+              (r[row] * e[column] + e[row] * r[column]) / 2 - (row == column ? along : 0);
+    }
+  }
+  std::optional<Cholesky> pressures;
+  MatrixXd coupling;
+  if (volume_ > 0) {
+    pressures.emplace(hessian.bottomRightCorner(spheres, spheres));
+    if (!pressures->succeeded()) return false;
+    coupling = hessian.bottomLeftCorner(spheres, turns);
+    MatrixXd solved = coupling;
+    pressures->solve_in_place(solved);
+    hessian = MatrixXd(hessian.topLeftCorner(turns, turns)) + transposed_product(coupling, solved);
+  }
+  Cholesky turning(std::move(hessian));
+  if (!turning.succeeded()) return false;
+  factor_ = std::move(turning);
+  if (volume_ > 0) {
+    pressure_factor_ = std::move(pressures);
+    coupling_ = std::move(coupling);
     transposed_ = coupling_.transpose();
     pulled_.resize(spheres);
     torques_.resize(turns);
   }
-  factor_.emplace(std::move(hessian));
-  if (!factor_->succeeded() || (pressure_factor_ && !pressure_factor_->succeeded())) factor_.reset();
+  return true;
 }
 
 void RotationHessian::step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps,
@@ -86,12 +121,12 @@ void RotationHessian::step(const Points& edges, const Columns3& residual, const 
       torque += edge.cross(pull);
       growth += edge.dot(pull);
     }
-    gradient_.segment<3>(3 * b) = torque;
+    gradient_.segment<3>(3 * b) = turned_[b] * torque;
     if (freedoms_ == 4) gradient_[3 * std::ssize(maps) + b] = growth;
   }
   factor_->solve_in_place(gradient_);
   for (Index b = 0; b < std::ssize(maps); ++b) {
-    stepped[b] = maps[b] * exponential(-gradient_.segment<3>(3 * b));
+    stepped[b] = maps[b] * exponential(-(turned_[b].transpose() * gradient_.segment<3>(3 * b)));
     if (freedoms_ == 4) stepped[b] *= std::exp(-std::clamp(gradient_[3 * std::ssize(maps) + b], -1.0, 1.0));
   }
 }
@@ -101,7 +136,7 @@ void RotationHessian::step(const Columns3& mapped, const Columns3& residual, con
   for (Index b = 0; b < std::ssize(turns); ++b) {
     Vector3 torque = Vector3::Zero();
     for (Index i = 3 * b; i < 3 * b + 3; ++i) torque += mapped.row(i).cross(residual.row(i)).transpose();
-    gradient_.segment<3>(3 * b) = turns[b].transpose() * torque;
+    gradient_.segment<3>(3 * b) = turned_[b] * (turns[b].transpose() * torque);
   }
   pulled_ = pressure;
   pressure_factor_->solve_in_place(pulled_);
@@ -111,7 +146,8 @@ void RotationHessian::step(const Columns3& mapped, const Columns3& residual, con
   multiply(coupling_, gradient_, pulled_);
   pressure -= pulled_;
   pressure_factor_->solve_in_place(pressure);
-  for (Index b = 0; b < std::ssize(turns); ++b) stepped[b] = turns[b] * exponential(-gradient_.segment<3>(3 * b));
+  for (Index b = 0; b < std::ssize(turns); ++b)
+    stepped[b] = turns[b] * exponential(-(turned_[b].transpose() * gradient_.segment<3>(3 * b)));
 }
 
 }  // namespace handlebody

@@ -10,6 +10,9 @@
 // energy is F's least over turns and its greatest over pressures, since κ (J − 1)² = max over q of −2q (J − 1) − q²/κ. Newton's
 // equations [A Bᵀ; B −C] are solved by two Cholesky factors, C's and that of A + Bᵀ C⁻¹ B.
 //
+// At rest most bends are solved in some ten iterations. Far from it the Hessian is another: where a solve drags on, it is made
+// again for the turns at hand, with the residual's part where that leaves it definite.
+//
 // Rejected: Anderson acceleration without it, ten times as many iterations; a Hessian factored in every iteration, which takes as
 // long as sixty of them.
 #pragma once
@@ -33,6 +36,10 @@ class RotationHessian {
 
   bool empty() const { return !factor_.has_value(); }
 
+  /** Makes it again where the spheres' edges are `mapped` and their turns `turns`, for the residual Γ₁ − Z₁Π. Of spheres that are
+   *  rigid only; false, and as before, where there are no factors. */
+  bool renew(const Columns3& mapped, const MatrixXd& hat, const Columns3& residual, const std::vector<Matrix3>& turns);
+
   /** Turns (and scales) the spheres' maps by the Newton step, from the residual Γ₁ − Z₁Π at them. Allocates nothing. */
   void step(const Points& edges, const Columns3& residual, const std::vector<Matrix3>& maps, std::vector<Matrix3>& stepped);
 
@@ -42,7 +49,11 @@ class RotationHessian {
             std::vector<Matrix3>& stepped);
 
  private:
+  bool factor(const Columns3& edges, const MatrixXd& hat, const Columns3* residual);
+
   Index freedoms_ = 3;  // of a sphere
+  double volume_ = 0;
+  std::vector<Matrix3> turned_;  // the spheres' turns where it was made: at rest there are none
   std::optional<Cholesky> factor_, pressure_factor_;
   MatrixXd coupling_, transposed_;  // B (B×3B), Bᵀ
   Vector gradient_, pulled_, torques_;
