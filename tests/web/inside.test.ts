@@ -6,6 +6,7 @@ import { readDog } from '../ts/support/dog.ts';
 import { arrival } from './support/arrival.ts';
 import { glb } from './support/files.ts';
 import { cramped, violations } from './support/manners.ts';
+import { stoppable } from './support/stoppable.ts';
 import { difference, frames, launch, loseContext, openFile, PHONE, picture, settled, soon, visit } from './support/studio.ts';
 
 let browser: Browser;
@@ -254,6 +255,22 @@ it('comes back after the graphics were interrupted, and goes after that', async 
   await soon(() => copies(page)).toEqual([]);
   expect(difference(shown, await picture(page))).toBeGreaterThan(5000);
   expect(said.filter((line) => !line.includes('CONTEXT_LOST'))).toEqual([]);
+});
+
+it('is shown by another solver where the one that there was has ended', async () => {
+  const { page, said } = await visit(browser, { hash: '#dog&inside=spheres', before: stoppable, reducedMotion: 'reduce' });
+  await page.locator('#viewport').press('Home');
+  const spheres = await picture(page);
+  await page.evaluate(() => Object.assign(globalThis, { full: true }));
+  await toggle(page, 'Skeleton').click();
+  await page.locator('#messages .message').waitFor();
+  await page.getByRole('button', { name: 'Try again' }).click();
+  await soon(() => page.locator('#messages .message').count()).toBe(0);
+  await settled(page);
+  await page.locator('#viewport').press('Home');
+  await soon(async () => difference(spheres, await picture(page))).toBeGreaterThan(500);
+  expect(await pressed(page)).toEqual(['spheres', 'skeleton']);
+  expect(said).toEqual([]);
 });
 
 it('says so when what draws it cannot be fetched, and shows it when it can', async () => {

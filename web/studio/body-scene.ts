@@ -207,6 +207,7 @@ export class BodyScene implements StudioScene, Steerable {
 
   renew(solver: HandlebodyRuntime): void {
     this.#body.renew(solver);
+    this.lookInside();
     this.#wake();
   }
 

@@ -57,6 +57,7 @@ export class Inside {
     this.#group.position.fromArray(options.body.data.mesh.origin ?? [0, 0, 0]);
   }
 
+  /** Throws what the solver throws; what it could not place is not shown then. */
   show(parts: ReadonlySet<Part>): void {
     const { view, object, body } = this.#options;
     for (const part of PARTS) {
@@ -70,7 +71,6 @@ export class Inside {
       this.#putBack = undefined;
     }
     view.changed();
-    this.follow();
   }
 
   /** To where the body is now. Throws what the solver throws. */
@@ -87,6 +87,7 @@ export class Inside {
 
   #add(part: Part, copies: Copies | undefined): void {
     if (!copies) return;
+    copies.follow();
     this.#copies.set(part, copies);
     this.#group.add(copies.mesh);
     this.#options.view.extras.add(this.#group);
