@@ -13,7 +13,6 @@ import { KERNEL_NAMES } from '../../web/figures/course/playground/rbf-kind.ts';
 import { outlierText, searchOutliers, summary } from '../../web/figures/course/playground/report.ts';
 import { remediesOf } from '../../web/figures/course/playground/warning-list.ts';
 import { readAlone } from '../../web/figures/kit/channel.ts';
-import { ColorMap } from '../../web/figures/kit/color-map.ts';
 import type { Kit } from '../../web/figures/kit/figure.ts';
 import { drawIsolines, levels } from '../../web/figures/kit/isolines.ts';
 import { curvePath, spreadLabels } from '../../web/figures/kit/path.ts';
@@ -24,6 +23,7 @@ import { axisMarks, fromLog, toLog } from '../../web/figures/kit/scale.ts';
 import { pointsOn, roundRange, sectionOf, sectionSamples } from '../../web/figures/kit/section.ts';
 import { fromText, stateOfPreset, toText } from '../../web/figures/kit/state-text.ts';
 import { brief, conditionText, health } from '../../web/figures/kit/words.ts';
+import { ColorMap } from '../../web/ui/color-map.ts';
 import { random } from './support/scattered.ts';
 
 const seed = 20140;

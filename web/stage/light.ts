@@ -33,6 +33,8 @@ export class StudioLight {
     this.#ground = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.22 }));
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
+    // Beneath all else that is seen through.
+    this.#ground.renderOrder = -1;
     this.group.add(this.#sky, this.#ground);
     for (const lamp of [this.#key, this.#second]) this.group.add(lamp, lamp.target);
   }

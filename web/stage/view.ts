@@ -1,4 +1,4 @@
-import { MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
+import { Group, MOUSE, type Object3D, PerspectiveCamera, Scene, Sphere, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { ease, onMotionChange, reducedMotion } from '../ui/motion.ts';
 import { isDark, onInterruption, onPaper, onScreenChange } from '../ui/screen.ts';
@@ -20,6 +20,8 @@ export class View {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
   readonly light = new StudioLight();
   readonly controls: OrbitControls;
+  /** What is drawn beside the object: it is never framed, and casts no shadow. */
+  readonly extras = new Group();
   /** Called after each frame with the camera's matrices up to date. */
   onDrawn: () => void = () => {};
   /** Gets a sentence while the graphics card is interrupted, and none when it is back. */
@@ -49,7 +51,7 @@ export class View {
    */
   constructor(canvas: HTMLCanvasElement, area: HTMLElement, easel = easelOf(canvas)) {
     [this.#canvas, this.#area, this.#easel] = [canvas, area, easel];
-    this.#scene.add(this.light.group);
+    this.#scene.add(this.light.group, this.extras);
 
     const { signal } = this;
     shareWheel(area, signal);

@@ -1,6 +1,7 @@
 import { Vector3 } from 'three';
 import type { Point } from '../three/live-body.ts';
 import { button, h } from '../ui/dom.ts';
+import { PARTS, type Part } from './address.ts';
 
 /** What the panel steers. */
 export interface Steerable {
@@ -12,6 +13,9 @@ export interface Steerable {
   resetHandle(i: number): void;
   remove(i: number): void;
   startPlacing(): void;
+  /** How much of each part the body has. */
+  readonly insides: Readonly<Record<Part, number>>;
+  showInside(part: Part, shown: boolean): void;
   reset(): void;
 }
 
@@ -20,6 +24,7 @@ export class BodyPanel {
   readonly element: HTMLElement;
   readonly #scene: Steerable;
   readonly #list = h('div', { class: 'handle-list', role: 'group', 'aria-label': 'Handles' });
+  readonly #inside: readonly HTMLButtonElement[];
   readonly #heading = h('h3', { id: 'chosen' });
   readonly #inputs: HTMLInputElement[];
   readonly #place: HTMLElement;
@@ -47,6 +52,7 @@ export class BodyPanel {
       ),
       h('div', { class: 'buttons' }, this.#back, this.#remove),
     );
+    this.#inside = PARTS.map((part) => insideButton(part, scene));
     this.element = h(
       'div',
       { class: 'panel-content' },
@@ -58,6 +64,12 @@ export class BodyPanel {
       ),
       h('section', {}, h('h3', {}, 'Handles'), this.#list),
       this.#place,
+      h(
+        'section',
+        { 'aria-labelledby': 'inside' },
+        h('h3', { id: 'inside' }, 'Inside'),
+        h('div', { class: 'insides', role: 'group', 'aria-labelledby': 'inside' }, ...this.#inside),
+      ),
       h(
         'div',
         { class: 'buttons panel-foot' },
@@ -79,6 +91,13 @@ export class BodyPanel {
       ),
     );
     this.select(this.#scene.selected);
+  }
+
+  /** These parts of the inside are shown. */
+  show(parts: ReadonlySet<Part>): void {
+    this.#inside.forEach((each, i) => {
+      each.setAttribute('aria-pressed', String(!each.disabled && parts.has(PARTS[i] as Part)));
+    });
   }
 
   select(index: number): void {
@@ -110,4 +129,26 @@ export class BodyPanel {
     const values = this.#inputs.map((input) => input.valueAsNumber);
     if (values.every(Number.isFinite)) this.#scene.moveTo(this.#scene.selected, new Vector3(...values));
   }
+}
+
+const NAMES: Record<Part, string> = { spheres: 'Spheres', centers: 'Centers', skeleton: 'Skeleton' };
+
+/** Shows a part of the inside, and says how much there is of it. */
+function insideButton(part: Part, scene: Steerable): HTMLButtonElement {
+  const count = scene.insides[part];
+  const unit = part === 'skeleton' ? (count === 1 ? ' branch' : ' branches') : '';
+  const made: HTMLButtonElement = h(
+    'button',
+    {
+      type: 'button',
+      class: 'button inside-part',
+      'data-part': part,
+      'aria-pressed': 'false',
+      disabled: count === 0,
+      onclick: () => scene.showInside(part, made.getAttribute('aria-pressed') !== 'true'),
+    },
+    h('span', {}, NAMES[part]),
+    h('span', { class: 'many' }, count === 0 ? 'none' : `${count}${unit}`),
+  );
+  return made;
 }

@@ -5,9 +5,12 @@ import { BareHandles } from '../three/handles.ts';
 import type { LiveBody, Point, Round } from '../three/live-body.ts';
 import type { LiveGeometry } from '../three/live-geometry.ts';
 import { h } from '../ui/dom.ts';
+import { lazy } from '../ui/lazy.ts';
 import { ease, reducedMotion } from '../ui/motion.ts';
+import type { Address, Part } from './address.ts';
 import { BodyPanel, type Steerable } from './body-panel.ts';
 import type { HandleOrder } from './handles-json.ts';
+import type { Inside } from './inside.ts';
 import type { Readout } from './readout.ts';
 import type { StudioScene } from './scene.ts';
 import { Tether } from './tether.ts';
@@ -24,6 +27,8 @@ interface BodySceneOptions {
   /** The element for the handles, over the canvas. */
   readonly overlay: HTMLElement;
   readonly readout: Readout;
+  /** Says what is shown of the inside. */
+  readonly address: Address;
   readonly onError: (error: unknown) => void;
   /** A move of the user's worked, so an old complaint is no longer true. */
   readonly onGood: () => void;
@@ -36,6 +41,8 @@ const ITERATIONS = 4;
 const RESET_SECONDS = 0.45;
 /** A handle this near to rest, in diagonals, is at rest. */
 const AT_REST = 5e-4;
+
+const insidePart = lazy(() => import('./inside.ts'), 'The part of this page that draws the inside');
 
 /** A body that follows its handles: solves a few iterations before each frame until the shape has settled, then sleeps. */
 export class BodyScene implements StudioScene, Steerable {
@@ -52,6 +59,8 @@ export class BodyScene implements StudioScene, Steerable {
   #easing: Step | undefined;
   /** The user moved something, and no solution has come of it yet. */
   #acted = false;
+  #inside: Inside | undefined;
+  #isLeft = false;
   readonly #step = () => this.#advance();
 
   constructor(options: BodySceneOptions) {
@@ -150,6 +159,41 @@ export class BodyScene implements StudioScene, Steerable {
     });
   }
 
+  get insides(): Readonly<Record<Part, number>> {
+    const { spheres, centers, skeleton } = this.#body.data;
+    return { spheres: spheres.length / 4, centers: centers.length, skeleton: skeleton?.lengths.length ?? 0 };
+  }
+
+  showInside(part: Part, shown: boolean): void {
+    const { address } = this.#options;
+    if (shown) address.inside.add(part);
+    else address.inside.delete(part);
+    address.write();
+    this.lookInside();
+  }
+
+  /** Shows what the address says of the inside. What draws it is fetched when it is first wanted. */
+  async lookInside(): Promise<void> {
+    const { address, view, object, onError } = this.#options;
+    this.#panel.show(address.inside);
+    try {
+      if (address.inside.size > 0 && !this.#inside) {
+        const { Inside } = await insidePart(undefined);
+        if (this.#isLeft) return;
+        this.#inside ??= new Inside({ view, object, body: this.#body });
+      }
+      this.#inside?.show(address.inside);
+    } catch (error) {
+      if (this.#isLeft) return;
+      if (!this.#inside) {
+        address.inside.clear();
+        address.write();
+        this.#panel.show(address.inside);
+      }
+      onError(error);
+    }
+  }
+
   startPlacing(): void {
     this.#options.onPlace();
   }
@@ -163,12 +207,15 @@ export class BodyScene implements StudioScene, Steerable {
 
   renew(solver: HandlebodyRuntime): void {
     this.#body.renew(solver);
+    this.lookInside();
     this.#wake();
   }
 
   dispose(): void {
     this.#stopEasing();
     this.#options.view.stop(this.#step);
+    this.#isLeft = true;
+    this.#inside?.dispose();
     this.#overlay.dispose();
     this.#tether.update(undefined, undefined);
     this.#options.readout.hide();
@@ -225,6 +272,7 @@ export class BodyScene implements StudioScene, Steerable {
     let round: Round;
     try {
       round = this.#body.advance(ITERATIONS);
+      this.#inside?.follow();
     } catch (error) {
       for (const i of this.#points.keys()) this.#overlay.setPosition(i, ...this.target(i).toArray());
       this.#acted = false;

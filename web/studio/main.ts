@@ -6,6 +6,7 @@ import { Messages } from '../ui/messages.ts';
 import { noteIn } from '../ui/note.ts';
 import { Progress } from '../ui/progress.ts';
 import { renewed } from '../ui/solver-end.ts';
+import { Address } from './address.ts';
 import { listenForFiles } from './drop.ts';
 import { ModelSwitch } from './model-switch.ts';
 import { Studio } from './studio.ts';
@@ -23,8 +24,9 @@ function start(): void {
   // Asked for now, awaited when a model is there: both come at the same time.
   const solver = renewed(load);
   solver().catch(() => {});
-  const studio = new Studio({ view, solver, messages, progress, note });
-  const models = new ModelSwitch((id) => void studio.choose(id));
+  const address = new Address();
+  const studio = new Studio({ view, solver, messages, progress, note, address });
+  const models = new ModelSwitch(address, (id) => void studio.choose(id));
   studio.modelSwitch = models;
   listenForFiles((files) => void studio.open(files));
   models.show(models.fromAddress());

@@ -1,21 +1,25 @@
 import { byId, h } from '../ui/dom.ts';
-import { MODELS } from './models.ts';
+import type { Address } from './address.ts';
+import { MODELS, modelOf } from './models.ts';
 
 /** The radio group that chooses the model; the address remembers the choice. */
 export class ModelSwitch {
   readonly #group = byId('models');
+  readonly #address: Address;
   readonly #choose: (id: string) => void;
 
-  constructor(choose: (id: string) => void) {
-    this.#choose = choose;
+  constructor(address: Address, choose: (id: string) => void) {
+    [this.#address, this.#choose] = [address, choose];
     for (const { id, label } of MODELS) this.#add(id, label);
-    addEventListener('hashchange', () => this.#choose(this.fromAddress()));
+    addEventListener('hashchange', () => {
+      address.read();
+      this.#choose(this.fromAddress());
+    });
   }
 
   /** The model that the address names, or the first. */
   fromAddress(): string {
-    const id = location.hash.slice(1);
-    return MODELS.some((model) => model.id === id) ? id : (MODELS[0]?.id ?? '');
+    return (modelOf(this.#address.model) ?? MODELS[0])?.id ?? '';
   }
 
   /** Shows what is on the stage; an own model gets its own button. */
@@ -25,8 +29,8 @@ export class ModelSwitch {
     else if (old && label) (old.nextElementSibling as HTMLElement).textContent = label;
     const input = this.#group.querySelector<HTMLInputElement>(`input[value="${id}"]`);
     if (input) input.checked = true;
-    const address = MODELS.some((model) => model.id === id) ? `#${id}` : '';
-    if (location.hash !== address) history.replaceState(null, '', address || location.pathname + location.search);
+    this.#address.model = modelOf(id)?.id ?? '';
+    this.#address.write();
   }
 
   /** Nothing is on the stage: every choice is one. */

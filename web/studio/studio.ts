@@ -12,6 +12,7 @@ import { isAbort, type Messages } from '../ui/messages.ts';
 import { PageError } from '../ui/page-error.ts';
 import type { Progress } from '../ui/progress.ts';
 import { tellOf } from '../ui/solver-end.ts';
+import type { Address } from './address.ts';
 import { besideIt } from './beside.ts';
 import { BodyScene } from './body-scene.ts';
 import type { ModelSwitch } from './model-switch.ts';
@@ -33,6 +34,7 @@ interface StudioParts {
   readonly messages: Messages;
   readonly progress: Progress;
   readonly note: (words: string) => void;
+  readonly address: Address;
 }
 
 /** Brings models onto the stage one at a time; the former one stays until the next is ready, and for good when that fails. */
@@ -65,6 +67,8 @@ export class Studio {
   async choose(id: string): Promise<void> {
     if (id === this.#shown) {
       this.#work?.abort();
+      // The same model, another look at it.
+      this.#body?.lookInside();
       return;
     }
     if (id === OWN) {
@@ -159,6 +163,7 @@ export class Studio {
     this.#shown = id;
     const { view } = this.#parts;
     view.show(scene.object);
+    this.#body?.lookInside();
     byId('panel').replaceChildren(scene.panel);
     this.#root.dataset.model = id;
     this.#root.dataset.kind = scene.kind;
@@ -203,6 +208,7 @@ export class Studio {
         points,
         overlay: byId('handles'),
         readout: this.#readout,
+        address: this.#parts.address,
         onPlace: () => this.#placing.begin(),
       });
     } catch (error) {

@@ -107,6 +107,11 @@ export class LiveBody {
     return 'at' in handle ? out.fromArray(this.#irbf.evaluate(handle.at)) : this.vertex(handle.vertex, out);
   }
 
+  /** Where points of space (three numbers each, model units) are now; into `out`. */
+  evaluate(points: Float64Array, out: Float64Array): void {
+    this.#irbf.evaluate(points, out);
+  }
+
   /** Where handle `i` is to go. */
   target(i: number, out = new Vector3()): Vector3 {
     return out.fromArray(this.#irbf.targets, i * TARGET);

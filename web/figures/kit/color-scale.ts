@@ -1,5 +1,5 @@
+import type { ColorMap } from '../../ui/color-map.ts';
 import { h, readable, write } from '../../ui/dom.ts';
-import type { ColorMap } from './color-map.ts';
 import { axisMarks } from './scale.ts';
 import { brief } from './words.ts';
 

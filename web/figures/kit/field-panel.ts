@@ -1,7 +1,7 @@
+import type { ColorMap } from '../../ui/color-map.ts';
 import { h, write } from '../../ui/dom.ts';
 import { onScreenChange } from '../../ui/screen.ts';
 import type { Label } from './chart.ts';
-import type { ColorMap } from './color-map.ts';
 import { FieldValues } from './field.ts';
 import { type Board, Handles, type PointActions } from './handles.ts';
 import { drawIsolines, levels } from './isolines.ts';

@@ -1,8 +1,8 @@
+import { ColorMap } from '../../ui/color-map.ts';
 import { h, svg } from '../../ui/dom.ts';
 import { lazy, NotFetched } from '../../ui/lazy.ts';
 import { Trouble } from '../../ui/trouble.ts';
 import { Chart } from './chart.ts';
-import { ColorMap } from './color-map.ts';
 import { ColorScale } from './color-scale.ts';
 import { FieldGrid, type FieldSource, Pace } from './field.ts';
 import { FieldPanel, type Relief } from './field-panel.ts';

@@ -1,5 +1,6 @@
 import type { HandlebodyRuntime, Irbf, IrbfOptions, SolveReport } from '../../../wasm/ts/runtime.ts';
 import type { BodyData } from '../../../wasm/ts/types.ts';
+import { ballEnds } from '../../three/ball-images.ts';
 import { rows } from './space-points.ts';
 
 /** Iterations between two looks at the clock, and milliseconds of a frame for them. */
@@ -26,11 +27,7 @@ export class HeldBody {
     this.positions = new Float32Array(body.mesh.positions.length);
     const count = spheres.length / 4;
     this.#radii = Array.from({ length: count }, (_, b) => (spheres[4 * b + 3] ?? 0) * normalization.diagonal);
-    this.#restEnds = Float64Array.from({ length: 18 * count }, (_, i) => {
-      const [b, end, axis] = [Math.floor(i / 18), Math.floor((i % 18) / 3), i % 3];
-      const center = (spheres[4 * b + axis] ?? 0) * normalization.diagonal + (normalization.center[axis] ?? 0);
-      return Math.floor(end / 2) === axis ? center + (end % 2 === 0 ? -1 : 1) * (this.#radii[b] ?? 0) : center;
-    });
+    this.#restEnds = ballEnds(body);
     this.ends = new Float64Array(this.#restEnds.length);
   }
 

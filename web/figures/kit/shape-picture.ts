@@ -20,8 +20,8 @@ import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import { extentOf } from '../../models/shape.ts';
 import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
+import { ColorMap } from '../../ui/color-map.ts';
 import { onInterruption } from '../../ui/screen.ts';
-import { ColorMap } from './color-map.ts';
 import type { Place } from './plane-handles.ts';
 import { FRAGMENT, VERTEX } from './shape-shader.ts';
 

@@ -1,10 +1,10 @@
 import type { PlaneMesh } from '../../models/mesh-shape.ts';
 import type { Shape } from '../../models/shape.ts';
+import { ColorMap } from '../../ui/color-map.ts';
 import { button, h } from '../../ui/dom.ts';
 import { noteIn } from '../../ui/note.ts';
 import { PageError } from '../../ui/page-error.ts';
 import { onPaper, onScreenChange } from '../../ui/screen.ts';
-import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { boneIn, emptiest, restOf } from './placing.ts';
 import { type Handle, MOST_HANDLES, movedTo, point, resting, struck, toThousandths } from './plane-handles.ts';

@@ -3,10 +3,11 @@ import { cameraTools } from '../../stage/camera-tools.ts';
 import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
 import { View } from '../../stage/view.ts';
+import { ballMatrices } from '../../three/ball-images.ts';
 import { BareHandles } from '../../three/handles.ts';
+import { ColorMap } from '../../ui/color-map.ts';
 import { h } from '../../ui/dom.ts';
 import { noteIn } from '../../ui/note.ts';
-import { ColorMap } from './color-map.ts';
 import type { Kit, OpenPanel, Panel } from './figure.ts';
 import { placed, rows } from './space-points.ts';
 import { Surface, type Triangulation } from './surface.ts';
@@ -118,22 +119,8 @@ class Stage<S> {
 
   /** Balls as a mapping leaves them: 18 numbers each, the images of the ends of three diameters at right angles. */
   balls(ends: ArrayLike<number>): this {
-    const count = ends.length / 18;
-    this.#balls = this.#many(this.#balls, count, 4);
-    const at = (ball: number, point: number, axis: number) => ends[18 * ball + 3 * point + axis] as number;
-    const { elements } = this.#matrix.identity();
-    for (let ball = 0; ball < count; ball++) {
-      for (let axis = 0; axis < 3; axis++) {
-        let middle = 0;
-        for (let diameter = 0; diameter < 3; diameter++) {
-          const [one, other] = [at(ball, 2 * diameter, axis), at(ball, 2 * diameter + 1, axis)];
-          elements[4 * diameter + axis] = (other - one) / 2;
-          middle += (one + other) / 6;
-        }
-        elements[12 + axis] = middle;
-      }
-      this.#balls.setMatrixAt(ball, this.#matrix);
-    }
+    this.#balls = this.#many(this.#balls, ends.length / 18, 4);
+    ballMatrices(ends, this.#balls.instanceMatrix.array as Float32Array);
     return this;
   }
 

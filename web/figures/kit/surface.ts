@@ -9,7 +9,7 @@ import {
   RGBAFormat,
   SRGBColorSpace,
 } from 'three';
-import { ColorMap } from './color-map.ts';
+import { ColorMap } from '../../ui/color-map.ts';
 
 /** No value: the shader leaves such vertices plain. */
 const PLAIN = -1e9;

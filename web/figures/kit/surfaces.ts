@@ -20,9 +20,9 @@ import {
 } from 'three';
 import { disposeObject } from '../../stage/dispose-object.ts';
 import { sharedEasel } from '../../stage/easel.ts';
+import type { ColorMap } from '../../ui/color-map.ts';
 import { h } from '../../ui/dom.ts';
 import { onInterruption } from '../../ui/screen.ts';
-import type { ColorMap } from './color-map.ts';
 import { MOST_POINTS } from './point-set.ts';
 import type { Frame } from './samples.ts';
 
