@@ -1,7 +1,9 @@
 // Two projects: `ts` runs in Node on the real wasm, `web` drives a real Chromium over the built site.
 import { existsSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
+import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
 const at = (name: string) => fileURLToPath(new URL(name, import.meta.url));
 /** The package's own entries, for examples that import them by name. */
@@ -18,8 +20,21 @@ const entries = Object.entries({
 });
 const webSetup = at('tests/web/global-setup.ts');
 
+/** Files that take the longest for their size. Where nothing is known from earlier runs, Vitest begins with large files, and one core waits for these. */
+const LONG =
+  /\/tests\/(web\/(rounds|element-cycles|embed-file|solver-end)|ts\/(forgotten|creatures|cli-errors|out-of-memory|rest-is-rest)|examples)\.test\.ts$/;
+
+class LongestFirst extends BaseSequencer {
+  override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
+    const isLong = (file: TestSpecification) => LONG.test(file.moduleId);
+    const sorted = await super.sort(files);
+    return [...sorted.filter(isLong), ...sorted.filter((file) => !isLong(file))];
+  }
+}
+
 export default defineConfig({
   test: {
+    sequence: { sequencer: LongestFirst },
     projects: [
       {
         resolve: {
@@ -28,6 +43,8 @@ export default defineConfig({
         test: {
           name: 'ts',
           include: ['tests/ts/**/*.test.ts', 'tests/scripts/**/*.test.ts', 'tests/repro/**/*.test.ts', 'tests/*.test.ts'],
+          // Vitest leaves a core to itself, which of two is too many: it sleeps.
+          maxWorkers: Math.max(2, availableParallelism() - 1),
           testTimeout: 60_000,
           hookTimeout: 120_000,
         },

@@ -4,6 +4,7 @@
 //
 //   npm run fuzz                              all targets, a minute each
 //   npm run fuzz -- irbf glb --seconds 600    these two, ten minutes each; or --runs 200000
+//   npm run fuzz -- readers                   those in TypeScript; `interface` is those of the C interface
 //   npm run fuzz -- --check                   what CI does: all that is committed once, natively and in wasm, then the same seconds of fuzzing
 //   npm run fuzz -- --coverage                lines of the files behind each target that its inputs reach
 //   npm run fuzz -- … --record                with --runs, --seconds or --coverage: puts the figures into tests/fuzz/results.json
@@ -23,6 +24,7 @@ const CHECK_RUNS = 3000;
 /** A check that finds something another time only would blame whoever comes along: new inputs are for `npm run fuzz`. */
 const CHECK_SEED = 20261130;
 const MODES = ['--check', '--coverage', '--seeds', '--record'];
+const GROUPS = ['interface', 'readers'];
 const READERS = ['obj', 'ply', 'stl', 'off', 'glb', 'gltf', 'body', 'handles', 'options'];
 
 /** @param {string[]} args */
@@ -75,12 +77,13 @@ async function fuzzReaders(readers, { seconds, runs }) {
 await runMain(async () => {
   const { named, seconds, runs, modes } = readArguments(process.argv.slice(2));
   const all = fuzzTargets();
-  const names = [...all.map(({ name }) => name), ...READERS];
+  const names = [...all.map(({ name }) => name), ...READERS, ...GROUPS];
   const unknown = named.find((name) => !names.includes(name));
   if (unknown) throw new Error(`There is no target called "${unknown}": use ${names.join(', ')}.`);
-  const isWanted = (/** @type {string} */ name) => named.length === 0 || named.includes(name);
-  const targets = all.filter(({ name }) => isWanted(name));
-  const readers = modes.has('--seeds') ? [] : READERS.filter(isWanted);
+  const isWanted = (/** @type {string} */ name, /** @type {string} */ group) =>
+    named.length === 0 || named.includes(name) || named.includes(group);
+  const targets = all.filter(({ name }) => isWanted(name, 'interface'));
+  const readers = modes.has('--seeds') ? [] : READERS.filter((name) => isWanted(name, 'readers'));
   const isBrief = modes.has('--check') || modes.has('--coverage');
   let sound = await fuzzReaders(readers, isBrief ? { runs: CHECK_RUNS } : { seconds, runs });
   if (targets.length === 0) return sound ? 0 : 1;

@@ -71,8 +71,9 @@ const culprits = enumEntries(status, 'HB_CULPRIT_');
 /** @param {[string, number][]} entries */
 const map = (entries) => entries.map(([name, value]) => `  ${value}: '${name}',`).join('\n');
 
-/** @param {string} name @param {string} text */
+/** Nothing where it is there already: another command may be reading it. @param {string} name @param {string} text */
 function write(name, text) {
+  if (existsSync(at(name)) && readFileSync(at(name), 'utf8') === text) return;
   mkdirSync(path.dirname(at(name)), { recursive: true });
   writeFileSync(at(name), text);
 }

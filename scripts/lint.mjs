@@ -1,16 +1,20 @@
 // `npm run lint`: formatting, linting, types and layering of everything that is ours. With --fix it formats first. Checks that need a
-// tool of the C++ side are reported as not run where it is missing, and fail under REQUIRE_NATIVE=1.
+// tool of the C++ side are reported as not run where it is missing, and fail under REQUIRE_NATIVE=1. `npm run lint -- types layers` runs
+// only these, and `npm run lint -- --except clang-tidy` all others.
 import { readFileSync } from 'node:fs';
-import { sideBySide } from './lib/cmake.mjs';
 import { isCpp } from './lib/imports.mjs';
 import { ensureInstalled } from './lib/install.mjs';
 import { configureNative, TIDY_BUILD } from './lib/native.mjs';
 import { at } from './lib/paths.mjs';
 import { run, runMain, which } from './lib/run.mjs';
 import { isLeftOver, sourceFiles } from './lib/sources.mjs';
+import { tidy } from './lib/tidy.mjs';
 import { findMachinePaths } from './lib/words.mjs';
 
-const fix = process.argv.includes('--fix');
+const args = process.argv.slice(2);
+const fix = args.includes('--fix');
+const except = args.includes('--except');
+const named = args.filter((arg) => arg !== '--fix' && arg !== '--except');
 const tool = (/** @type {string[]} */ ...parts) => at('node_modules', ...parts);
 const node = (/** @type {string[]} */ ...args) => run(process.execPath, args);
 
@@ -54,36 +58,24 @@ async function clangFormat() {
   return cpp.length === 0 ? 0 : run('clang-format', [...(fix ? ['-i'] : ['--dry-run', '-Werror']), ...cpp]);
 }
 
-/** Every source of the solver, a few at a time; only what was found is shown. */
+/** Every source of the solver; only what was found is shown. */
 async function clangTidy() {
   if (!which('clang-tidy')) return 'clang-tidy is missing';
   const problem = await configureNative(TIDY_BUILD, ['-DHANDLEBODY_PRECOMPILE=OFF']);
   if (problem) return problem;
-  let failures = 0;
-  await sideBySide(
-    cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file)),
-    async (file) => {
-      let output = '';
-      const collect = (/** @type {string} */ text) => {
-        output += text;
-      };
-      const status = await run('clang-tidy', ['--quiet', '-p', TIDY_BUILD, file], {
-        stdio: ['ignore', 'pipe', 'ignore'],
-        onOutput: collect,
-      });
-      if (status === 0) return;
-      failures += 1;
-      console.error(`${file}\n${output.trim()}`);
-    },
-  );
-  return failures === 0 ? 0 : 1;
+  const files = cpp.filter((file) => /^wasm\/(core|abi)\/.*\.cpp$/.test(file));
+  return (await tidy(TIDY_BUILD, files)) === 0 ? 0 : 1;
 }
 
 await runMain(async () => {
+  const names = CHECKS.map(([name]) => name);
+  const unknown = named.find((name) => !names.includes(name));
+  if (unknown) throw new Error(`There is no check called "${unknown}": use ${names.join(', ')}, or none for all.`);
   await ensureInstalled();
   await import('./generate.mjs');
   const failed = [];
   for (const [name, check] of CHECKS) {
+    if (named.length > 0 && named.includes(name) === except) continue;
     const start = performance.now();
     const result = await check();
     const seconds = `${((performance.now() - start) / 1000).toFixed(1)} s`;

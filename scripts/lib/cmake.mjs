@@ -34,6 +34,7 @@ export async function cmakeBuild(folder, { targets = [], env } = {}) {
     ['--build', folder, '--parallel', `${jobs}`, ...(targets.length > 0 ? ['--target', ...targets] : [])],
     {
       ...(env && { env }),
+      behind: true,
       stdio: ['ignore', 'pipe', 'inherit'],
       onOutput: (text) => progress.add(text),
     },

@@ -44,6 +44,7 @@ export async function prepareNativeSuite() {
 async function runDoctest(program, args) {
   let output = '';
   const status = await run(program, [...args, '--no-colors=1'], {
+    behind: true,
     stdio: ['ignore', 'pipe', 'inherit'],
     onOutput: (text) => {
       output += text;

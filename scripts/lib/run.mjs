@@ -1,6 +1,7 @@
 // Other programs: finding and running them.
 import { spawn, spawnSync } from 'node:child_process';
 import { accessSync, constants, statSync } from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { root } from './paths.mjs';
 
@@ -19,7 +20,10 @@ export function which(name) {
   return undefined;
 }
 
-/** @typedef {import('node:child_process').SpawnOptions & { onOutput?: (text: string) => void, onError?: (text: string) => void }} RunOptions */
+/**
+ * `behind`: it takes what others leave of the machine. Long work that nobody waits for goes beside a browser then, which is not slower for it.
+ * @typedef {import('node:child_process').SpawnOptions & { behind?: boolean, onOutput?: (text: string) => void, onError?: (text: string) => void }} RunOptions
+ */
 
 /**
  * Runs a program to its end with our output as its own, or piped to `onOutput` and `onError`. Signals that end us end it too.
@@ -28,8 +32,9 @@ export function which(name) {
  */
 export function run(command, args, options = {}) {
   return new Promise((resolve) => {
-    const { onOutput, onError, ...spawnOptions } = options;
+    const { behind = false, onOutput, onError, ...spawnOptions } = options;
     const child = spawn(command, args, { cwd: root, stdio: 'inherit', ...spawnOptions });
+    if (behind && child.pid !== undefined) putBehind(child.pid);
     if (onOutput) child.stdout?.setEncoding('utf8').on('data', onOutput);
     if (onError) child.stderr?.setEncoding('utf8').on('data', onError);
     const pass = (/** @type {NodeJS.Signals} */ signal) => child.kill(signal);
@@ -41,6 +46,13 @@ export function run(command, args, options = {}) {
     child.on('error', () => end(127));
     child.on('close', (code) => end(code ?? 128));
   });
+}
+
+/** @param {number} pid */
+function putBehind(pid) {
+  try {
+    os.setPriority(pid, Math.max(os.getPriority(), os.constants.priority.PRIORITY_BELOW_NORMAL));
+  } catch {} // it ended already, or goes as the others
 }
 
 /** As run(), but a failure throws. @param {string} command @param {string[]} args @param {RunOptions} [options] */
