@@ -169,7 +169,7 @@ typedef struct hb_irbf_options {
   double smoothness;     /* λ of eq. (10); 0 chooses it from the body */
   double anchor_weight;  /* μ */
   double edge_exponent;  /* α of eq. (8) */
-  double poisson_ratio;  /* 0 to 0.49: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
+  double poisson_ratio;  /* 0 to 0.499: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   uint32_t kernel;       /* as in hb_rbf_options, but for 14 */
   uint32_t host_kernel;  /* of kernel 15 */
@@ -325,7 +325,7 @@ typedef struct hb_rbf_options {
   double width;          /* units of the points; ignored by kernels without one and unless width_choice is 0 */
   double smoothing;      /* λ ≥ 0 of R + λI; -1 in hb_find_outliers chooses it */
   double weight_decay;   /* λ ≥ 0 of min ‖Rw − d‖² + λ‖w‖² */
-  double poisson_ratio;  /* 0 to 0.49: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
+  double poisson_ratio;  /* 0 to 0.499: how much volume resists (fixed corotated elasticity); 0 is eq. (8). Rigid spheres only */
   double support;        /* where the compact inverse multiquadric ends, in widths */
   const double* widths;  /* one per center, or NULL */
   const double* centers; /* center_count × dimension, or NULL for the points themselves */

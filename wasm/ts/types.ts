@@ -228,7 +228,7 @@ export interface IrbfOptions {
    */
   readonly edgeExponent?: number;
   /**
-   * How much rigid spheres resist a change of volume, as the Poisson ratio of an elastic body: 0, the paper's eq. (8), to 0.49. The energy is
+   * How much rigid spheres resist a change of volume, as the Poisson ratio of an elastic body: 0, the paper's eq. (8), to 0.499. The energy is
    * that of fixed corotated elasticity (Stomakhin et al. 2012): Σ w (‖F − R‖² + ν/(1 − 2ν) (det F − 1)²).
    */
   readonly poissonRatio?: number;

@@ -53,8 +53,8 @@ export function parseHandles(
   for (const [name, value] of Object.entries({ relativeWidth, smoothness }))
     if (value !== undefined && value !== 'auto' && !(isNumber(value) && value > 0))
       throw invalid(`has the ${name} ${show(value)}, which should be a number above 0, or "auto".`);
-  if (poissonRatio !== undefined && !(isNumber(poissonRatio) && poissonRatio >= 0 && poissonRatio <= 0.49))
-    throw invalid(`has the poissonRatio ${show(poissonRatio)}, which should be a number from 0 to 0.49.`);
+  if (poissonRatio !== undefined && !(isNumber(poissonRatio) && poissonRatio >= 0 && poissonRatio <= 0.499))
+    throw invalid(`has the poissonRatio ${show(poissonRatio)}, which should be a number from 0 to 0.499.`);
   for (const [name, words] of Object.entries(WORDS)) {
     const value = file[name];
     if (value !== undefined && !words.includes(value as string))

@@ -32,8 +32,8 @@ Result<Done> check_options(const IrbfOptions& options) {
     return invalid_option("anchor weight", options.anchor_weight, "Use a positive number up to 1e6, such as 100.");
   if (!std::isfinite(options.edge_exponent) || std::abs(options.edge_exponent) > 4)
     return invalid_option("edge exponent", options.edge_exponent, "Use a number from -4 to 4, such as 2.");
-  if (!(options.poisson_ratio >= 0 && options.poisson_ratio <= 0.49))
-    return invalid_option("Poisson ratio", options.poisson_ratio, "Use a number from 0 to 0.49, such as 0.48.");
+  if (!(options.poisson_ratio >= 0 && options.poisson_ratio <= 0.499))
+    return invalid_option("Poisson ratio", options.poisson_ratio, "Use a number from 0 to 0.499, such as 0.495.");
   return Done{};
 }
 
