@@ -316,7 +316,7 @@ describe('handlebody deform', () => {
     const irbf = (await load()).irbf(body, { relativeWidth: 2, smoothness: 1e-6, precision: 'float' });
     irbf.setHandles(handles.map(({ to: _, rotation, ...place }) => ({ ...place, ...(rotation && { kind: 'rotation' }) })) as never);
     for (const [i, { to }] of handles.entries()) irbf.targets.set(to, 10 * i);
-    irbf.solve({ maxIterations: 1000, tolerance: 1e-7 });
+    irbf.solve({ maxIterations: 1000, tolerance: 1e-12 });
     const [positions, normals] = [new Float32Array(mesh.positions.length), new Float32Array(mesh.positions.length)];
     const stored = sceneNormals(ranges) ?? [];
     irbf.setRestNormals(sceneNormals(readMesh(await read('body.glb')).ranges) ?? new Float32Array());

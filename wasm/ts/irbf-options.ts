@@ -13,7 +13,7 @@ export const IRBF_DEFAULTS = {
   constraints: 'soft',
   anchorWeight: 100,
   edgeExponent: 2,
-  poissonRatio: 0.495,
+  poissonRatio: 0.4,
   support: 4,
   order: 2,
   precision: 'fixed',

@@ -213,7 +213,7 @@ export interface IrbfOptions {
    */
   readonly relativeWidth?: number | 'auto';
   /**
-   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto', the default, is 1e-4 Σ w‖Δφ‖² over all
+   * λ of eq. (10): larger is smoother, smaller follows the spheres' shapes more closely. 'auto', the default, is 3e-4 Σ w‖Δφ‖² over all
    * centers and spheres' edges, so that a function costs the same part of the spheres' energy however many centers make it up.
    */
   readonly smoothness?: number | 'auto';

@@ -16,8 +16,8 @@ export const DEFORM_OPTIONS: Options = { ...WRITES, handles: { type: 'string' } 
 
 /** From rest, once: as many as it takes. */
 const MAX_ITERATIONS = 1000;
-/** Of a diagonal in an iteration: nobody waits for a frame, and what is left to go is more than the last step. */
-const TOLERANCE = 1e-7;
+/** Of a diagonal in an iteration: nobody waits for a frame, and where volume is kept there is more left to go than the last step went. */
+const TOLERANCE = 1e-12;
 
 /** `handlebody deform`: a baked model, bent by handles. */
 export async function deformCommand({ values, words, report, signal, clock }: Run): Promise<void> {

@@ -75,7 +75,7 @@ HANDLES.json, in the model's own units after its nodes' transforms:
       { "vertex": 120, "to": [0.1, 0.6, 0] },
       { "at": [0, 0.5, 0], "to": [0, 0.5, 0], "rotation": [0, 0, 0.383, 0.924], "scale": [1, 1, 1] }
     ],
-    "relativeWidth": "auto", "smoothness": "auto", "poissonRatio": 0.495, "sphereFit": "rigid", "structure": "octahedron",
+    "relativeWidth": "auto", "smoothness": "auto", "poissonRatio": 0.4, "sphereFit": "rigid", "structure": "octahedron",
     "shapes": { "7": [1.5, 0, 0, 0, 1, 0, 0, 0, 1] } }
 
 A handle sits on a vertex (POSITION as stored, primitives one after another in scene order; in OBJ, PLY and OFF, in the order of the

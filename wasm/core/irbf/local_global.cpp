@@ -12,7 +12,7 @@ namespace handlebody {
 
 namespace {
 
-constexpr Index window = 8;
+constexpr Index window = 20;
 /** A step may raise the energy by rounding. */
 constexpr double rounding = 1e-12;
 /** A sphere that shrinks to nothing could not turn any more. */
@@ -148,6 +148,8 @@ void LocalGlobal::start(double energy) {
   displaced_ = image_.topRows(edges_.rows());
   anderson_.forget();
   age_ = 0;
+  patience_ = renewed_after;
+  renewed_ = false;
   newton_ = !hessian_.empty();
   plain_part_ = 1;
   stalled_ = false;
@@ -186,7 +188,7 @@ void LocalGlobal::renew_hessian() {
     mapped_.middleRows<3>(3 * b) = mapped_rows(three(shaped_, b), maps_[b]);
   }
   if (!hessian_.renew(mapped_, *hat_, residual_, turns)) return;
-  newton_ = true;
+  newton_ = renewed_ = true;
   anderson_.forget();
 }
 
@@ -237,7 +239,7 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     ++report.iterations;
     // The step is taken here and not at the end of the last iteration, since a frame may have only one.
     const bool accelerated = options.accelerate && accelerated_;
-    if (options.accelerate && ++age_ > renewed_after) renew_hessian();
+    if (options.accelerate && ++age_ > patience_) renew_hessian();
     if (accelerated) {
       accelerated_step();
     } else {
@@ -247,7 +249,11 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     if ((accelerated || volume_ > 0) && !(energy <= energy_ + rounding * std::abs(energy_))) {
       // The step raised the energy: a plain one cannot, or where volume is resisted a short one.
       if (!accelerated) plain_part_ /= 4;
-      if (accelerated && newton_) newton_ = false, anderson_.forget();
+      if (accelerated && newton_) {
+        newton_ = false;
+        anderson_.forget();
+        if (renewed_) patience_ *= 2;  // it does not pay off here
+      }
       accelerated_ = false;
       this->energy(maps_);  // their right-hand side and image again
       stalled_ = report.converged = plain_part_ < least_part;
@@ -259,7 +265,8 @@ LocalGlobalReport LocalGlobal::run(const LocalGlobalOptions& options) {
     if (!std::isfinite(energy)) break;  // beyond numbers: nothing gets better from there
     const auto moved = image_.topRows(edges_.rows()) - displaced_;
     report.change = std::sqrt((moved.rowwise().squaredNorm().array() * edge_scale_.array().square()).maxCoeff());
-    report.converged = report.change < options.tolerance;
+    // A local step goes only a part of its way where volume is resisted.
+    report.converged = report.change * (accelerated && newton_ ? 1 : 1 + 3 * volume_) < options.tolerance;
     displaced_ = image_.topRows(edges_.rows());
     accelerated_ = true;
   }

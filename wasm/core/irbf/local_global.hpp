@@ -12,6 +12,7 @@
 // its steps may raise the energy: the local steps are accelerated in their place then, until the Hessian is made again. Spot, 32
 // drags with ν = 0.48, mean iterations, and drags that end at 100: quasi-Newton steps alone 40, 3; with local steps once one was
 // refused 39, 3; with the Hessian made again after 15 iterations, too, 19, none; with ν = 0.49 and all three 21, none.
+// (Those iterations ended where a local step, shortened for volume's sake, was below the tolerance; now the whole way has to be.)
 #pragma once
 
 #include <vector>
@@ -106,6 +107,8 @@ class LocalGlobal {
   std::vector<Matrix3> turns_;
   Vector held_, pressure_;
   bool newton_ = false;       // whether accelerated steps are quasi-Newton ones
+  bool renewed_ = false;      // whether the Hessian was made again since they began
+  int patience_ = 0;          // iterations until it is made again, twice as many wherever that did not help
   int age_ = 0;               // iterations since they began, or the Hessian was made again
   double plain_part_ = 1;     // of the way that a plain step goes
   bool stalled_ = false;      // whether not even the shortest lowers the energy

@@ -33,7 +33,7 @@ Result<Done> check_options(const IrbfOptions& options) {
   if (!std::isfinite(options.edge_exponent) || std::abs(options.edge_exponent) > 4)
     return invalid_option("edge exponent", options.edge_exponent, "Use a number from -4 to 4, such as 2.");
   if (!(options.poisson_ratio >= 0 && options.poisson_ratio <= 0.499))
-    return invalid_option("Poisson ratio", options.poisson_ratio, "Use a number from 0 to 0.499, such as 0.495.");
+    return invalid_option("Poisson ratio", options.poisson_ratio, "Use a number from 0 to 0.499, such as 0.4.");
   return Done{};
 }
 

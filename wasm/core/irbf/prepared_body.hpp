@@ -27,7 +27,7 @@ struct IrbfOptions {
   FramePrecision precision = FramePrecision::fixed;
   SphereFit sphere_fit = SphereFit::rigid;
   SphereStructure structure = SphereStructure::octahedron;  // of spheres
-  double poisson_ratio = 0.495;                               // below 0.5, at which nothing changes volume; 0 is paper 001's energy
+  double poisson_ratio = 0.4;                               // below 0.5, at which nothing changes volume; 0 is paper 001's energy
 
   /** κ of local_global.hpp: λ/2μ of fixed corotated elasticity. */
   double volume() const { return poisson_ratio / (1 - 2 * poisson_ratio); }

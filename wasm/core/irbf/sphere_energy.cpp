@@ -6,7 +6,7 @@ namespace handlebody {
 
 namespace {
 
-constexpr double automatic_part = 1e-4;
+constexpr double automatic_part = 3e-4;
 
 }  // namespace
 

@@ -27,7 +27,7 @@ struct SphereEnergy {
 Result<SphereEnergy> make_sphere_energy(const Body& body, const Basis& basis, double exponent,
                                         SphereStructure structure = SphereStructure::octahedron);
 
-/** λ chosen from the data: 1e-4 Σ w‖Δφ‖², over all centers and the edges of all spheres. Coefficients of normalized kernels are
+/** λ chosen from the data: 3e-4 Σ w‖Δφ‖², over all centers and the edges of all spheres. Coefficients of normalized kernels are
  * about as large as the function that they make up, however many centers do so: λ‖c‖² would grow with C, and Σ w‖Δφ‖² falls with
  * it. So eq. (10) keeps its balance whatever the number of centers and spheres, the model's size, the weights by α and the width of
  * the kernel.
