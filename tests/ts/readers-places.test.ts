@@ -231,6 +231,7 @@ const ROWS: readonly Row[] = [
   whole('center', 'centers', { ...matching, centers: Uint32Array.of(0, 9) }),
   whole('handle-lost', 'handles', { ...matching, handles: [{ name: 'Wing', vertex: 9 }] }),
   whole('spheres', 'spheres', { ...matching, spheres: new Float64Array(3) }),
+  whole('sphere-axes', 'sphereAxes', { ...matching, sphereAxes: new Float64Array(2) }),
   body('smooth-length', 'smoothLength', { version: 2, smoothLength: -1 }),
   boned('skeleton-nodes', 'skeletonNodes', { nodes: new Float64Array(3) }),
   boned('skeleton-step', 'skeletonBranches', { steps: Uint32Array.of(0, 2) }),
