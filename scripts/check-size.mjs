@@ -24,7 +24,7 @@ const OF_SOME_MODELS = [
 
 /**
  * The smaller wasm may take 195 kB of each (.size-limit.json): 185 before polynomials went by what points tell apart, axes by what they span,
- * remedies by trial, and memory that runs out was given back. Of 203, volume's term of IRBF has 6, denser structures and ellipsoids 2.5.
+ * remedies by trial, and memory that runs out was given back. Of 204, volume's term of IRBF has 6, denser structures and ellipsoids 2.5, and a Hessian that is made again 1.5.
  */
 const PAGES = [
   {
@@ -36,7 +36,7 @@ const PAGES = [
     later: [/^worker\//, ...OF_SOME_MODELS, /^studio\/(dropped-folder|handles-json|inside)/, /^three\/farthest/],
     // 405 and 248 before every argument was met by name, readers were bounded, and a page went on when its solver stopped; 411 and 252 before
     // the wasm grew; 430 and 271 before the inside could be shown.
-    budget: { 'with three.js': 431_000, without: 272_000 },
+    budget: { 'with three.js': 436_000, without: 277_000 },
   },
   {
     name: 'one tag',
@@ -53,7 +53,7 @@ const PAGES = [
       /^_bake-in-worker/,
       /^assets\/open-unusual/,
     ],
-    budget: { 'with three.js': 425_000, 'beyond three.js and the runtime': 42_000 },
+    budget: { 'with three.js': 428_000, 'beyond three.js and the runtime': 42_000 },
   },
 ];
 
