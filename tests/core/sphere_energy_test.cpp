@@ -135,3 +135,18 @@ TEST_CASE("the rows of an ellipsoid and what is beside them have the sum of squa
   for (Index i = 0; i < 3; ++i) across += gram(1, 1) / gram(i, i) * energy->rows.row(i).tail(6).squaredNorm();
   CHECK(automatic_smoothness(*energy) == doctest::Approx(3e-4 * across).epsilon(1e-9));
 }
+
+TEST_CASE("a sphere whose square is no number any more has edges that are") {
+  EnergeticBar bar;
+  for (const double radius : {1e-150, 1e-200, 1e-300}) {
+    bar.body.spheres[1].radius = radius;
+    for (const SphereStructure structure : {SphereStructure::octahedron, SphereStructure::icosahedron}) {
+      const auto energy = make_sphere_energy(bar.body, bar.basis, 2, structure);
+      REQUIRE(energy);
+      CHECK(energy->edges.allFinite());
+      CHECK(energy->rows.allFinite());
+      CHECK(energy->beside.allFinite());
+      CHECK(std::isfinite(automatic_smoothness(*energy)));
+    }
+  }
+}

@@ -104,7 +104,7 @@ int32_t hb_bake_body(hb_bake* bake, hb_body* out) {
   for (const auto& sphere : body.spheres) {
     bake->spheres.insert(bake->spheres.end(), {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
     bake->axes.insert(bake->axes.end(), sphere.axis.begin(), sphere.axis.end());
-    long_ones = long_ones || !sphere.axis.isZero(0);
+    long_ones = long_ones || handlebody::is_long(sphere);
   }
   const handlebody::Grid& grid = body.domain.grid();
   for (int axis = 0; axis < 3; ++axis) {

@@ -14,9 +14,7 @@ const MIDDLE = [0, 0, 0] as const;
  * one, an ellipsoid of revolution, is its long one; those of a plain one lie along x, y and z.
  */
 export function ballEnds(body: BodyData): Float64Array {
-  const { spheres } = body;
-  // Half the long axis of each sphere, zeros for a plain one; left out by bodies that have none.
-  const axes = (body as { readonly sphereAxes?: Float64Array }).sphereAxes;
+  const { spheres, sphereAxes: axes } = body;
   const middles = placesOf(body, spheres);
   const ends = new Float64Array((spheres.length / 4) * ENDS);
   const halves = new Float64Array(9);

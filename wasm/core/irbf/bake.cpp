@@ -310,7 +310,7 @@ Result<Done> Bake::put_bones() {
   // Bones bend at their joints: one smooth function is half as long as they are, as it is half as long as a limb elsewhere.
   double halves = 0, bones = 0;
   for (const Sphere& sphere : body_.spheres) {
-    if (!sphere.axis.isZero(0)) halves += sphere.axis.norm(), ++bones;
+    if (is_long(sphere)) halves += sphere.axis.norm(), ++bones;
   }
   body_.smooth_length = std::min(body_.smooth_length, halves / bones);
   return Done{};

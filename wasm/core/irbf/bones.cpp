@@ -59,7 +59,7 @@ bool reaches(const Vector3& center, double radius, const Sphere& ellipsoid) {
 
 /** Of two ellipsoids, whether the middle half of the first reaches into the other: bones meet at their ends. */
 bool overlap(const Sphere& sphere, const Sphere& ellipsoid) {
-  if (sphere.axis.isZero(0)) return reaches(sphere.center, sphere.radius, ellipsoid);
+  if (!is_long(sphere)) return reaches(sphere.center, sphere.radius, ellipsoid);
   for (const double part : {-0.5, -0.25, 0.0, 0.25, 0.5})
     if (reaches(sphere.center + part * sphere.axis, sphere.radius * std::sqrt(1 - part * part), ellipsoid)) return true;
   return false;

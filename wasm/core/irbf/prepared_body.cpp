@@ -50,7 +50,7 @@ Result<std::shared_ptr<const PreparedBody>> PreparedBody::create(Body body, cons
   // The float matrix while the 16-bit one is made from it, the matrices of the unknowns, the hat matrix.
   double rows = 0;  // of points and edges, while matrices are made
   for (const Sphere& sphere : body.spheres)
-    rows += !sphere.axis.isZero(0) ? 68 : options.structure == SphereStructure::octahedron ? 9 : 28;
+    rows += is_long(sphere) ? 68 : options.structure == SphereStructure::octahedron ? 9 : 28;
   const double bytes = 6 * centers * static_cast<double>(body.positions.rows()) + 8 * (centers + 4) * (centers + 4 + rows) +
                        8 * 9 * spheres * spheres;
   if (bytes > most_bytes) {

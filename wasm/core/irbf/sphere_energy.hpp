@@ -20,7 +20,8 @@ struct SphereEnergy {
   Points edges;       // 3B×3: √w e
   Vector edge_scale;  // 3B: 1/√w
   MatrixXd rows;      // Z₁, 3B × (4 + C): √w [e 0 Δφ]
-  MatrixXd beside;    // (I − Q Qᵀ) √w [e 0 Δφ]: no rows for a sphere of six points
+  double curvature = 0;  // Σ w‖Δφ‖² of the rows, of an ellipsoid as if it were no longer than thick: λ is not to follow from bones
+  MatrixXd beside;  // (I − Q Qᵀ) √w [e 0 Δφ]: no rows for a sphere of six points
 };
 
 /** `exponent` is α. Fails as the basis does. */

@@ -15,6 +15,10 @@ struct Sphere {
   Vector3 axis = Vector3::Zero();  // half the long axis of an ellipsoid that is `radius` thick about it; 0 for a sphere
 };
 
+inline bool is_long(const Sphere& sphere) {
+  return !sphere.axis.isZero(0);
+}
+
 struct SpherePackingOptions {
   int max_spheres = 120;
   double shrink = 0.9;      // radius as a part of the distance to the surface

@@ -47,7 +47,7 @@ class Around {
 }  // namespace
 
 Matrix3 half_axes(const Sphere& sphere) {
-  if (sphere.axis.isZero(0)) return sphere.radius * Matrix3::Identity();
+  if (!is_long(sphere)) return sphere.radius * Matrix3::Identity();
   Matrix3 axes;
   axes.col(0) = sphere.axis;
   axes.col(1) = sphere.radius * sphere.axis.unitOrthogonal();
@@ -56,7 +56,7 @@ Matrix3 half_axes(const Sphere& sphere) {
 }
 
 StructureEdges structure_edges(const Sphere& sphere, SphereStructure structure) {
-  const bool long_one = !sphere.axis.isZero(0);
+  const bool long_one = is_long(sphere);
   if (!long_one && structure == SphereStructure::octahedron) {
     StructureEdges made;
     for (Index i = 0; i < 6; ++i) made.points.push_back(structure_point(sphere.center, sphere.radius, i));
